@@ -1,0 +1,58 @@
+"""rrnn_opt: one symbolic law in; a proof, a solver, a plan and a controller out.
+
+The nouns and verbs of the package; everything is imported when first used,
+so that ``import rrnn_opt`` costs nothing.
+"""
+
+from __future__ import annotations
+
+import importlib
+from importlib import metadata
+from typing import Any
+
+_HOME = {
+    # nouns
+    "Robot": "rrnn_opt.robot",
+    "Kinematics": "rrnn_opt.robot",
+    "Symbol": "rrnn_opt.symbolic",
+    "Formulation": "rrnn_opt.formulation",
+    "NeuralDynamics": "rrnn_opt.dynamics",
+    "Euler": "rrnn_opt.dynamics",
+    "LyapunovFunction": "rrnn_opt.lyapunov",
+    "Claim": "rrnn_opt.claim",
+    "Scene": "rrnn_opt.scene",
+    "Problem": "rrnn_opt.planning",
+    # verbs
+    "plan": "rrnn_opt.planning",
+    "retime": "rrnn_opt.motion",
+    "settle": "rrnn_opt.solving",
+    "compare": "rrnn_opt.solving",
+    "simulate": "rrnn_opt.simulation",
+    "certify": "rrnn_opt.verification",
+    "generate": "rrnn_opt.embedding",
+}
+_ROOMS = (
+    "formulations",
+    "networks",
+    "emit",
+    "scene",
+    "robot",
+    "symbolic",
+    "check",
+    "study",
+    "validation",
+)
+__all__ = [*_HOME, *_ROOMS]
+__version__ = metadata.version("rrnn_opt")
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME:
+        return getattr(importlib.import_module(_HOME[name]), name)
+    if name in _ROOMS:
+        return importlib.import_module(f"rrnn_opt.{name}")
+    raise AttributeError(f"module 'rrnn_opt' has no attribute '{name}'")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

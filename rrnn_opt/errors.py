@@ -1,0 +1,140 @@
+"""Every error of the package: one root, each carrying its data.
+
+A message says what is wrong and what to do; the data of the error stay
+available as attributes, so that callers never parse a sentence.
+"""
+
+from __future__ import annotations
+
+
+class RrnnError(Exception):
+    """Root of every error that this package raises on purpose."""
+
+
+class ShapeError(RrnnError):
+    """An expression or array has the wrong shape.
+
+    Attributes:
+        name: what was given.
+        want: required shape.
+        got: shape that was given.
+    """
+
+    def __init__(
+        self, name: str, want: tuple[int, ...], got: tuple[int, ...]
+    ) -> None:
+        self.name, self.want, self.got = name, want, got
+        super().__init__(f"{name}: expected shape {want}, got {got}")
+
+
+class NotFiniteError(RrnnError):
+    """A number that must be finite is NaN or infinite.
+
+    Attributes:
+        name: what was given.
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        super().__init__(f"{name}: every number must be finite")
+
+
+class NotAQpError(RrnnError):
+    """A declaration is not a convex quadratic programme.
+
+    Attributes:
+        where: part of the formulation ("cost", "equalities", ...).
+        operation: offending operation or property.
+    """
+
+    def __init__(self, where: str, operation: str, advice: str) -> None:
+        self.where, self.operation = where, operation
+        super().__init__(f"{where}: {operation}; {advice}")
+
+
+class UnsupportedOperationError(RrnnError):
+    """The instruction tape holds an operation that a reader does not know.
+
+    Attributes:
+        operation: its name.
+        reader: who met it ("C99 emitter", "rational polynomials", ...).
+    """
+
+    def __init__(self, operation: str, reader: str) -> None:
+        self.operation, self.reader = operation, reader
+        super().__init__(f"{reader}: operation '{operation}' is not supported")
+
+
+class RobotError(RrnnError):
+    """A robot description cannot be read or used.
+
+    Attributes:
+        source: file or name of the robot.
+    """
+
+    def __init__(self, source: str, message: str) -> None:
+        self.source = source
+        super().__init__(f"robot '{source}': {message}")
+
+
+class ProblemError(RrnnError):
+    """A planning problem (or task) is not valid.
+
+    Attributes:
+        field: offending field, e.g. "obstacles[2].size".
+    """
+
+    def __init__(self, field: str, message: str) -> None:
+        self.field = field
+        super().__init__(f"{field}: {message}")
+
+
+class CompilerError(RrnnError):
+    """No C compiler, or the compiler failed.
+
+    Attributes:
+        command: what was run, or None when no compiler was found.
+        output: first lines of what it printed.
+    """
+
+    def __init__(
+        self, message: str, command: list[str] | None = None, output: str = ""
+    ) -> None:
+        self.command, self.output = command, output
+        super().__init__(message)
+
+
+class InfeasibleQpError(RrnnError):
+    """A QP has no feasible point, or a solver found no usable answer.
+
+    Attributes:
+        residual: KKT residual of what the solver returned, or None.
+    """
+
+    def __init__(self, message: str, residual: float | None = None) -> None:
+        self.residual = residual
+        super().__init__(message)
+
+
+class RetimeError(RrnnError):
+    """A path could not be timed within its limits.
+
+    Attributes:
+        reason: the retimer's own word.
+    """
+
+    def __init__(self, message: str, reason: str = "") -> None:
+        self.reason = reason
+        super().__init__(message)
+
+
+class DocumentError(RrnnError):
+    """A file is not a document of the expected kind.
+
+    Attributes:
+        path: the file.
+    """
+
+    def __init__(self, path: str, message: str) -> None:
+        self.path = path
+        super().__init__(f"{path}: {message}")
