@@ -1,13 +1,18 @@
 """Obstacles as data, and their distance to a point, written once in SX."""
 
-from rrnn_opt.scene.shapes import (
-    Box,
-    Capsule,
-    Cylinder,
-    HalfSpace,
-    Obstacle,
-    Scene,
-    Sphere,
-)
+from rrnn_opt.scene.distance import PRIMITIVES, distance_function
+from rrnn_opt.scene.scene import KINDS, Scene
+from rrnn_opt.scene.shapes import Box, Capsule, Cylinder, HalfSpace, Obstacle, Sphere
 
-__all__ = ["Box", "Capsule", "Cylinder", "HalfSpace", "Obstacle", "Scene", "Sphere"]
+__all__ = [
+    "KINDS",
+    "PRIMITIVES",
+    "Box",
+    "Capsule",
+    "Cylinder",
+    "HalfSpace",
+    "Obstacle",
+    "Scene",
+    "Sphere",
+    "distance_function",
+]

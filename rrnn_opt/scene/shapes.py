@@ -1,0 +1,266 @@
+"""Obstacles as frozen data; what is not a solid is refused when it is built.
+
+Positions and sizes in metres, quaternions xyzw.  The axis of cylinders and
+capsules is their local z; a capsule's length is between its sphere centres.
+``pack()`` gives the 16 numbers that the distance expressions read: rotation
+(column-major, 9), position (3), dimensions (3), zero.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rrnn_opt.scene import fields
+from rrnn_opt.scene.pose import IDENTITY, frame_around, matrix_from_quaternion
+
+Array = NDArray[np.float64]
+
+PACKED = 16
+"""Numbers that one packed shape takes."""
+
+
+def _origin() -> Array:
+    return np.zeros(3)
+
+
+def _upright() -> Array:
+    return np.array(IDENTITY)
+
+
+def _checked(shape: object, **values: object) -> None:
+    for key, value in values.items():
+        object.__setattr__(shape, key, value)
+
+
+def _pose(shape: Box | Cylinder | Capsule) -> dict[str, object]:
+    return {
+        "name": fields.text(shape.name, "name"),
+        "position": fields.vector(shape.position, 3, "position"),
+        "quat_xyzw": fields.unit(shape.quat_xyzw, 4, "quat_xyzw")[0],
+    }
+
+
+def _packed(rotation: Array, position: Array, *dims: float) -> Array:
+    packed = np.zeros(PACKED)
+    packed[:9] = rotation.ravel(order="F")
+    packed[9:12] = position
+    packed[12 : 12 + len(dims)] = dims
+    return packed
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """A box.
+
+    Attributes:
+        name: shown in reports and witnesses.
+        size: full edge lengths, (3,), m.
+        position: centre, (3,), m.
+        quat_xyzw: orientation, (4,).
+
+    Raises:
+        ProblemError: a number is not finite, an edge is not positive, or the
+            quaternion is not of unit length.
+    """
+
+    kind: ClassVar[str] = "box"
+    name: str
+    size: Array
+    position: Array = field(default_factory=_origin)
+    quat_xyzw: Array = field(default_factory=_upright)
+
+    def __post_init__(self) -> None:
+        _checked(self, size=fields.sizes(self.size, 3, "size"), **_pose(self))
+
+    @property
+    def rotation(self) -> Array:
+        """Axes as columns, (3, 3)."""
+        return matrix_from_quaternion(self.quat_xyzw)
+
+    def pack(self) -> Array:
+        """Rotation, position and half edges, (16,)."""
+        return _packed(self.rotation, self.position, *(0.5 * self.size))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The obstacle as the problem file writes it."""
+        return _written(self, "size", "position", "quat_xyzw")
+
+
+@dataclass(frozen=True, eq=False)
+class Cylinder:
+    """A cylinder around its local z axis.
+
+    Attributes:
+        name: shown in reports and witnesses.
+        radius: m.
+        length: between the flat ends, m.
+        position: centre, (3,), m.
+        quat_xyzw: orientation, (4,).
+
+    Raises:
+        ProblemError: as for a box.
+    """
+
+    kind: ClassVar[str] = "cylinder"
+    name: str
+    radius: float
+    length: float
+    position: Array = field(default_factory=_origin)
+    quat_xyzw: Array = field(default_factory=_upright)
+
+    def __post_init__(self) -> None:
+        radius = fields.positive(self.radius, "radius")
+        length = fields.positive(self.length, "length")
+        _checked(self, radius=radius, length=length, **_pose(self))
+
+    @property
+    def rotation(self) -> Array:
+        """Axes as columns, (3, 3)."""
+        return matrix_from_quaternion(self.quat_xyzw)
+
+    def pack(self) -> Array:
+        """Rotation, position, radius and half length, (16,)."""
+        return _packed(self.rotation, self.position, self.radius, 0.5 * self.length)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The obstacle as the problem file writes it."""
+        return _written(self, "radius", "length", "position", "quat_xyzw")
+
+
+@dataclass(frozen=True, eq=False)
+class Capsule:
+    """All points within ``radius`` of a segment along the local z axis.
+
+    Attributes:
+        name: shown in reports and witnesses.
+        radius: m.
+        length: between the sphere centres, m.
+        position: centre of the segment, (3,), m.
+        quat_xyzw: orientation, (4,).
+
+    Raises:
+        ProblemError: as for a box.
+    """
+
+    kind: ClassVar[str] = "capsule"
+    name: str
+    radius: float
+    length: float
+    position: Array = field(default_factory=_origin)
+    quat_xyzw: Array = field(default_factory=_upright)
+
+    def __post_init__(self) -> None:
+        radius = fields.positive(self.radius, "radius")
+        length = fields.positive(self.length, "length")
+        _checked(self, radius=radius, length=length, **_pose(self))
+
+    @property
+    def rotation(self) -> Array:
+        """Axes as columns, (3, 3)."""
+        return matrix_from_quaternion(self.quat_xyzw)
+
+    def pack(self) -> Array:
+        """Rotation, position, radius and half length, (16,)."""
+        return _packed(self.rotation, self.position, self.radius, 0.5 * self.length)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The obstacle as the problem file writes it."""
+        return _written(self, "radius", "length", "position", "quat_xyzw")
+
+
+@dataclass(frozen=True, eq=False)
+class Sphere:
+    """A ball.
+
+    Attributes:
+        name: shown in reports and witnesses.
+        radius: m.
+        position: centre, (3,), m.
+
+    Raises:
+        ProblemError: a number is not finite or the radius not positive.
+    """
+
+    kind: ClassVar[str] = "sphere"
+    name: str
+    radius: float
+    position: Array = field(default_factory=_origin)
+
+    def __post_init__(self) -> None:
+        _checked(
+            self,
+            name=fields.text(self.name, "name"),
+            radius=fields.positive(self.radius, "radius"),
+            position=fields.vector(self.position, 3, "position"),
+        )
+
+    @property
+    def rotation(self) -> Array:
+        """The identity, (3, 3)."""
+        return np.eye(3)
+
+    def pack(self) -> Array:
+        """Identity, position and radius, (16,)."""
+        return _packed(self.rotation, self.position, self.radius)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The obstacle as the problem file writes it."""
+        return _written(self, "radius", "position")
+
+
+@dataclass(frozen=True, eq=False)
+class HalfSpace:
+    """The solid ``{x : normal.x <= offset}``.
+
+    A normal that is nearly of unit length is normalised together with the
+    offset, so the solid stays the one that was written.
+
+    Attributes:
+        name: shown in reports and witnesses.
+        normal: outward unit normal, (3,).
+        offset: m.
+
+    Raises:
+        ProblemError: a number is not finite or the normal not of unit length.
+    """
+
+    kind: ClassVar[str] = "halfspace"
+    name: str
+    normal: Array
+    offset: float
+
+    def __post_init__(self) -> None:
+        normal, length = fields.unit(self.normal, 3, "normal")
+        offset = fields.number(self.offset, "offset") / length
+        name = fields.text(self.name, "name")
+        _checked(self, name=name, normal=normal, offset=offset)
+
+    @property
+    def rotation(self) -> Array:
+        """A frame whose third axis is the normal, (3, 3)."""
+        return frame_around(self.normal)
+
+    @property
+    def position(self) -> Array:
+        """The origin: the offset alone places the plane, (3,)."""
+        return np.zeros(3)
+
+    def pack(self) -> Array:
+        """Rotation, zeros and offset, (16,)."""
+        return _packed(self.rotation, self.position, self.offset)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The obstacle as the problem file writes it."""
+        return _written(self, "normal", "offset")
+
+
+Obstacle = Box | Cylinder | Capsule | Sphere | HalfSpace
+
+
+def _written(shape: Obstacle, *keys: str) -> dict[str, Any]:
+    values = {key: np.asarray(getattr(shape, key)).tolist() for key in keys}
+    return {"name": shape.name, "type": shape.kind, **values}
