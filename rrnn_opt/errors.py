@@ -82,10 +82,11 @@ class ProblemError(RrnnError):
 
     Attributes:
         field: offending field, e.g. "obstacles[2].size".
+        message: what is wrong with it.
     """
 
     def __init__(self, field: str, message: str) -> None:
-        self.field = field
+        self.field, self.message = field, message
         super().__init__(f"{field}: {message}")
 
 
