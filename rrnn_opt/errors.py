@@ -45,11 +45,15 @@ class NotAQpError(RrnnError):
     Attributes:
         where: part of the formulation ("cost", "equalities", ...).
         operation: offending operation or property.
+        expression: the subexpression it stands in, when there is one.
     """
 
-    def __init__(self, where: str, operation: str, advice: str) -> None:
-        self.where, self.operation = where, operation
-        super().__init__(f"{where}: {operation}; {advice}")
+    def __init__(
+        self, where: str, operation: str, advice: str, *, expression: str = ""
+    ) -> None:
+        self.where, self.operation, self.expression = where, operation, expression
+        place = f" in '{expression}'" if expression else ""
+        super().__init__(f"{where}: {operation}{place}; {advice}")
 
 
 class UnsupportedOperationError(RrnnError):
