@@ -1,10 +1,25 @@
 """Robots as frozen arrays, and their symbolic kinematics.
 
-``Robot`` is data; ``Kinematics`` writes its forward kinematics in CasADi.
+``Robot`` is data; ``Kinematics`` writes its forward kinematics in CasADi and
+is imported when first used, so that looking at a robot costs no CasADi.
 Only ``loading`` knows pinocchio, and only it reads URDF files.
 """
 
-from rrnn_opt.robot.kinematics import Kinematics
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from rrnn_opt.robot.robot import Frame, JointTree, Limits, Robot, Sphere
 
+if TYPE_CHECKING:
+    from rrnn_opt.robot.kinematics import Kinematics
+
 __all__ = ["Frame", "JointTree", "Kinematics", "Limits", "Robot", "Sphere"]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "Kinematics":
+        from rrnn_opt.robot.kinematics import Kinematics
+
+        return Kinematics
+    raise AttributeError(f"module 'rrnn_opt.robot' has no attribute '{name}'")

@@ -1,0 +1,235 @@
+"""Forward kinematics and geometric Jacobian of a robot, written in CasADi SX.
+
+The recursion over the tree is
+
+    T_k(q) = T_parent(k)(q) P_k exp(v_k a_k),    v_k = m_k q_source(k) + b_k
+
+with placement P_k, axis a_k (a turn about it, or a shift along it) and the
+mimic coupling m_k, b_k.  CasADi drops multiplications by exact 0 and 1 as the
+graph is built, so exact placements give a lean graph.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import casadi as ca
+import numpy as np
+
+from rrnn_opt.errors import ShapeError
+from rrnn_opt.robot.robot import BASE, PRISMATIC, Array, Frame, Robot
+
+POSITION, POSE = "position", "pose"
+
+
+def _rotation(axis: Array, angle: ca.SX) -> ca.SX:
+    """Rodrigues' rotation about a unit axis, c I + (1 - c) a a' + s [a]x."""
+    c, s = ca.cos(angle), ca.sin(angle)
+    a = [float(value) for value in axis]
+    out = ca.SX.zeros(3, 3)
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        out[i, i] = 1.0 if abs(a[i]) == 1.0 else c + (1 - c) * (a[i] * a[i])
+        out[i, j] = (1 - c) * (a[i] * a[j]) - s * a[k]
+        out[j, i] = (1 - c) * (a[i] * a[j]) + s * a[k]
+    return out
+
+
+class Kinematics:
+    """Symbolic kinematics of a robot; every expression is in the symbol ``q``.
+
+    Attributes:
+        robot: the robot.
+        q: joint coordinates, SX (nv, 1), rad or m.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        """Name the coordinates; expressions are built when asked for.
+
+        Args:
+            robot: the robot.
+        """
+        self.robot = robot
+        self.q: ca.SX = ca.SX.sym("q", robot.nv)
+
+    @cached_property
+    def _frames(self) -> list[tuple[ca.SX, ca.SX]]:
+        """(rotation (3, 3), origin (3, 1)) of every joint frame, in the base."""
+        tree = self.robot.tree
+        frames: list[tuple[ca.SX, ca.SX]] = []
+        for k in range(tree.nj):
+            value = tree.multiplier[k] * self.q[int(tree.source[k])] + tree.offset[k]
+            R, p = self._carried(frames, int(tree.parents[k]), tree.placements[k])
+            if tree.types[k] == PRISMATIC:
+                p = p + (R @ ca.SX(tree.axes[k])) * value
+            else:
+                R = R @ _rotation(tree.axes[k], value)
+            frames.append((R, p))
+        return frames
+
+    @staticmethod
+    def _carried(
+        frames: list[tuple[ca.SX, ca.SX]], joint: int, placement: Array
+    ) -> tuple[ca.SX, ca.SX]:
+        """Rotation and origin of a pose fixed to a joint frame."""
+        R, p = ca.SX(placement[:3, :3]), ca.SX(placement[:3, 3])
+        if joint == BASE:
+            return R, p
+        R_joint, p_joint = frames[joint]
+        return R_joint @ R, p_joint + R_joint @ p
+
+    def joint_frames(self) -> list[ca.SX]:
+        """Pose of every tree joint's frame after its motion, 4x4 each, m."""
+        return [_homogeneous(R, p) for R, p in self._frames]
+
+    def origins(self) -> ca.SX:
+        """Origins of the joint frames in the base, (3, nj), m."""
+        return ca.horzcat(*[p for _, p in self._frames])
+
+    def axes(self) -> ca.SX:
+        """Joint axes in the base, unit columns, (3, nj)."""
+        pairs = zip(self._frames, self.robot.tree.axes, strict=True)
+        return ca.horzcat(*[R @ ca.SX(axis) for (R, _), axis in pairs])
+
+    def pose(self, frame: str | None = None) -> ca.SX:
+        """Pose of a frame in the base, (4, 4), m; the tip without a name.
+
+        Raises:
+            RobotError: there is no such frame.
+        """
+        where = self.robot.frame(frame)
+        return _homogeneous(*self._carried(self._frames, where.joint, where.placement))
+
+    def position(self, frame: str | None = None) -> ca.SX:
+        """Origin of a frame in the base, (3, 1), m; the tip without a name.
+
+        Raises:
+            RobotError: there is no such frame.
+        """
+        where = self.robot.frame(frame)
+        return self._carried(self._frames, where.joint, where.placement)[1]
+
+    def jacobian(self, frame: str | None = None, *, kind: str = POSITION) -> ca.SX:
+        """Geometric Jacobian of a frame, in the axes of the base.
+
+        Column of a revolute joint: z x (p - o), and z; of a prismatic joint:
+        z, and 0.  A mimic joint adds its column, times its multiplier, to
+        that of the coordinate which drives it.
+
+        Args:
+            frame: name of the frame; the tip without a name.
+            kind: "position" for the three rows of the linear velocity, m;
+                "pose" for six rows, linear then angular.
+
+        Returns:
+            SX (3, nv) or (6, nv).
+
+        Raises:
+            RobotError: there is no such frame.
+            ValueError: ``kind`` is neither of the two.
+        """
+        if kind not in (POSITION, POSE):
+            raise ValueError(f"kind must be '{POSITION}' or '{POSE}', not '{kind}'")
+        where = self.robot.frame(frame)
+        point = self._carried(self._frames, where.joint, where.placement)[1]
+        full = self._columns(where, point)
+        return full[:3, :] if kind == POSITION else full
+
+    def _columns(self, where: Frame, point: ca.SX) -> ca.SX:
+        tree = self.robot.tree
+        out = ca.SX.zeros(6, self.robot.nv)
+        for k in tree.ancestors(where.joint):
+            R, origin = self._frames[k]
+            z = R @ ca.SX(tree.axes[k])
+            slides = tree.types[k] == PRISMATIC
+            linear = z if slides else ca.cross(z, point - origin)
+            angular = ca.SX.zeros(3, 1) if slides else z
+            column = float(tree.multiplier[k]) * ca.vertcat(linear, angular)
+            i = int(tree.source[k])
+            out[:, i] = out[:, i] + column
+        return out
+
+    def jacobian_dot(
+        self, frame: str | None, qd: ca.SX, *, kind: str = POSITION
+    ) -> ca.SX:
+        """Time derivative of the Jacobian along joint velocities.
+
+        Args:
+            frame: name of the frame; None for the tip.
+            qd: joint velocities, (nv, 1), rad/s or m/s.
+            kind: as in ``jacobian``.
+
+        Returns:
+            SX of the Jacobian's shape.
+
+        Raises:
+            RobotError: there is no such frame.
+            ShapeError: ``qd`` is not (nv, 1).
+        """
+        velocity = ca.SX(qd)
+        if velocity.shape != self.q.shape:
+            raise ShapeError("qd", self.q.shape, velocity.shape)
+        jacobian = self.jacobian(frame, kind=kind)
+        flat = ca.jtimes(ca.vec(jacobian), self.q, velocity)
+        return ca.densify(ca.reshape(flat, *jacobian.shape))
+
+    def sphere_centres(self) -> ca.SX:
+        """Centres of the collision spheres in the base, (3, ns), m."""
+        centres = []
+        for sphere in self.robot.spheres:
+            centre = ca.SX(sphere.center)
+            if sphere.joint != BASE:
+                R, p = self._frames[sphere.joint]
+                centre = p + R @ centre
+            centres.append(centre)
+        return ca.horzcat(*centres) if centres else ca.SX.zeros(3, 0)
+
+    def manipulability(self, frame: str | None = None) -> ca.SX:
+        """Yoshikawa's measure sqrt(det(J J')) of the position Jacobian.
+
+        Rows in which the arm cannot move at all (z of a planar arm) are left
+        out; with fewer joints than rows it is sqrt(det(J' J)).
+
+        Raises:
+            RobotError: there is no such frame.
+        """
+        jacobian = self.jacobian(frame)
+        rows = [i for i in range(3) if not jacobian[i, :].is_zero()]
+        moving = jacobian[rows, :]
+        wide = moving.shape[0] <= moving.shape[1]
+        return ca.sqrt(ca.det(moving @ moving.T if wide else moving.T @ moving))
+
+    def functions(self) -> dict[str, ca.Function]:
+        """CasADi functions of ``q``, by name, for the tip.
+
+        Returns:
+            "pose", "position", "jacobian", "pose_jacobian", "jacobian_dot"
+            (of q and qd), "joint_origins", "joint_axes", "sphere_centres".
+        """
+        qd = ca.SX.sym("qd", self.robot.nv)
+        parts = {
+            "pose": self.pose(),
+            "position": self.position(),
+            "jacobian": self.jacobian(),
+            "pose_jacobian": self.jacobian(kind=POSE),
+            "joint_origins": self.origins(),
+            "joint_axes": self.axes(),
+            "sphere_centres": self.sphere_centres(),
+        }
+        out = {
+            name: ca.Function(name, [self.q], [value], ["q"], ["value"])
+            for name, value in parts.items()
+        }
+        out["jacobian_dot"] = ca.Function(
+            "jacobian_dot",
+            [self.q, qd],
+            [self.jacobian_dot(None, qd)],
+            ["q", "qd"],
+            ["value"],
+        )
+        return out
+
+
+def _homogeneous(R: ca.SX, p: ca.SX) -> ca.SX:
+    bottom = ca.SX(np.array([[0.0, 0.0, 0.0, 1.0]]))
+    return ca.densify(ca.vertcat(ca.horzcat(R, p), bottom))
