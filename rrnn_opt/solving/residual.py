@@ -1,0 +1,229 @@
+"""KKT residuals of a quadratic programme, computed by us.
+
+For min 1/2 x'Px + q'x, A x = b, G x <= h, lb <= x <= ub with multipliers
+y, z >= 0 and z_box (positive at an upper, negative at a lower bound) the
+conditions are  Px + q + A'y + G'z + z_box = 0, feasibility, and that each
+multiplier vanishes where its row is slack.  All residuals are absolute
+infinity norms.  No solver's own word enters.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rrnn_opt.solving.status import Status
+
+Array = NDArray[np.float64]
+
+OSQP_JUNK = 2143289344.0
+"""The bits of a float NaN read as an integer: OSQP's answer without a solution."""
+
+INACCURATE = 1e3
+"""A residual of up to this many tolerances counts as solved inaccurately."""
+
+
+@dataclass(frozen=True, eq=False)
+class Duals:
+    """Multipliers in the signs of ``qpsolvers``.
+
+    Attributes:
+        y: of the equalities, (meq,).
+        z: of the inequalities, (mineq,), not negative.
+        z_box: of the bounds, (n,): positive at an upper, negative at a lower one.
+    """
+
+    y: Array
+    z: Array
+    z_box: Array
+
+
+@dataclass(frozen=True)
+class Residual:
+    """Absolute KKT residuals; infinite where there was nothing to judge.
+
+    Attributes:
+        primal: violation of the rows and bounds.
+        dual: stationarity, and multipliers of the wrong sign.
+        gap: |primal objective - dual objective|.
+        complementarity: largest |multiplier times slack|.
+    """
+
+    primal: float
+    dual: float
+    gap: float
+    complementarity: float
+
+    @property
+    def worst(self) -> float:
+        """The largest of the four."""
+        return max(self.primal, self.dual, self.gap, self.complementarity)
+
+
+NOT_JUDGED = Residual(math.inf, math.inf, math.inf, math.inf)
+
+
+@dataclass(frozen=True, eq=False)
+class Dense:
+    """A ``qpsolvers.Problem`` with every part present as a dense array.
+
+    Attributes:
+        P: (n, n) Hessian.
+        q: (n,) linear cost.
+        G: (mineq, n) inequality rows.
+        h: (mineq,).
+        A: (meq, n) equality rows.
+        b: (meq,).
+        lb: (n,), -inf where free.
+        ub: (n,), +inf where free.
+    """
+
+    P: Array
+    q: Array
+    G: Array
+    h: Array
+    A: Array
+    b: Array
+    lb: Array
+    ub: Array
+
+    @staticmethod
+    def of(problem: Any) -> Dense:
+        """The dense parts of ``problem`` (a ``qpsolvers.Problem``)."""
+        if isinstance(problem, Dense):
+            return problem
+        P, q, G, h, A, b, lb, ub = problem.unpack_as_dense()
+        q = np.asarray(q, dtype=np.float64).ravel()
+        n = q.size
+
+        def rows(value: Any) -> Array:
+            return np.zeros((0, n)) if value is None else np.atleast_2d(value)
+
+        def column(value: Any, size: int, absent: float) -> Array:
+            if value is None:
+                return np.full(size, absent)
+            return np.asarray(value, dtype=np.float64).ravel()
+
+        G, A = rows(G), rows(A)
+        return Dense(
+            P=np.asarray(P, dtype=np.float64),
+            q=q,
+            G=G,
+            h=column(h, len(G), 0.0),
+            A=A,
+            b=column(b, len(A), 0.0),
+            lb=column(lb, n, -np.inf),
+            ub=column(ub, n, np.inf),
+        )
+
+
+def is_usable(x: ArrayLike | None, size: int) -> bool:
+    """Whether ``x`` is a finite vector of that size and not OSQP's junk."""
+    if x is None:
+        return False
+    values = np.asarray(x, dtype=np.float64)
+    if values.shape != (size,):
+        return False
+    return bool(np.isfinite(values).all() and not (values == OSQP_JUNK).any())
+
+
+def kkt_residual(problem: Any, x: ArrayLike | None, duals: Duals | None) -> Residual:
+    """The four residuals of a point and its multipliers.
+
+    Args:
+        problem: ``qpsolvers.Problem`` or ``Dense``.
+        x: (n,) point, or None.
+        duals: its multipliers, or None (then only the primal one is finite).
+
+    Returns:
+        Absolute residuals; all infinite when ``x`` is no usable vector.
+    """
+    qp = Dense.of(problem)
+    if not is_usable(x, qp.q.size):
+        return NOT_JUDGED
+    point = np.asarray(x, dtype=np.float64)
+    primal = _primal(qp, point)
+    if duals is None or not _usable_duals(qp, duals):
+        return Residual(primal, math.inf, math.inf, math.inf)
+    gap = abs(float(point @ (qp.P @ point + qp.q)) + dual_support(qp, duals))
+    return Residual(
+        primal, _dual(qp, point, duals), gap, _complementarity(qp, point, duals)
+    )
+
+
+def judge(
+    problem: Any, x: ArrayLike | None, duals: Duals | None, *, tolerance: float
+) -> tuple[Status, Residual]:
+    """SOLVED, SOLVED_INACCURATE or NUMERICAL, and the residual that says so.
+
+    Args:
+        problem: ``qpsolvers.Problem`` or ``Dense``.
+        x: (n,) point, or None.
+        duals: its multipliers, or None.
+        tolerance: on every one of the four residuals.
+    """
+    residual = kkt_residual(problem, x, duals)
+    if residual.worst <= tolerance:
+        return Status.SOLVED, residual
+    if residual.worst <= INACCURATE * tolerance:
+        return Status.SOLVED_INACCURATE, residual
+    return Status.NUMERICAL, residual
+
+
+def dual_support(qp: Dense, duals: Duals) -> float:
+    """The sum b'y + h'z + ub'z_box+ - lb'z_box-, infinite bounds left out.
+
+    What is left out is counted by the dual residual: a multiplier that pushes
+    against an infinite bound has the wrong sign.
+    """
+    up, down = np.maximum(duals.z_box, 0.0), np.maximum(-duals.z_box, 0.0)
+    box = np.where(np.isfinite(qp.ub), qp.ub, 0.0) @ up
+    box -= np.where(np.isfinite(qp.lb), qp.lb, 0.0) @ down
+    rows = np.where(np.isfinite(qp.h), qp.h, 0.0) @ duals.z
+    return float(qp.b @ duals.y + rows + box)
+
+
+def _largest(values: Array) -> float:
+    return float(np.max(values, initial=0.0))
+
+
+def _usable_duals(qp: Dense, duals: Duals) -> bool:
+    sizes = (len(qp.b), len(qp.h), len(qp.q))
+    parts = (duals.y, duals.z, duals.z_box)
+    return all(is_usable(v, n) for v, n in zip(parts, sizes, strict=True))
+
+
+def _primal(qp: Dense, x: Array) -> float:
+    return max(
+        _largest(np.abs(qp.A @ x - qp.b)),
+        _largest(qp.G @ x - qp.h),
+        _largest(x - qp.ub),
+        _largest(qp.lb - x),
+    )
+
+
+def _dual(qp: Dense, x: Array, duals: Duals) -> float:
+    gradient = qp.P @ x + qp.q + qp.A.T @ duals.y + qp.G.T @ duals.z + duals.z_box
+    return max(
+        _largest(np.abs(gradient)),
+        _largest(-duals.z),
+        _largest(np.where(np.isinf(qp.h), np.abs(duals.z), 0.0)),
+        _largest(np.where(np.isinf(qp.ub), duals.z_box, 0.0)),
+        _largest(np.where(np.isinf(qp.lb), -duals.z_box, 0.0)),
+    )
+
+
+def _complementarity(qp: Dense, x: Array, duals: Duals) -> float:
+    up, down = np.maximum(duals.z_box, 0.0), np.maximum(-duals.z_box, 0.0)
+    slack_up = np.where(np.isfinite(qp.ub), qp.ub - x, 0.0)
+    slack_down = np.where(np.isfinite(qp.lb), x - qp.lb, 0.0)
+    slack = np.where(np.isfinite(qp.h), qp.h - qp.G @ x, 0.0)
+    return max(
+        _largest(np.abs(duals.z * slack)),
+        _largest(np.abs(up * slack_up)),
+        _largest(np.abs(down * slack_down)),
+    )

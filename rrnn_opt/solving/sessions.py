@@ -1,0 +1,201 @@
+"""OSQP and DAQP as sessions: one set-up, then updates of the numbers.
+
+Both take rows with two sides; we stack bounds, inequalities and equalities
+as  [lb; -inf; b] <= [I; G; A] x <= [ub; h; b].
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rrnn_opt.solving.backends import TIGHT, solution
+from rrnn_opt.solving.protocol import Instance, Solution
+from rrnn_opt.solving.residual import Array, Dense, Duals
+
+_EQUALITY = 5
+"""DAQP's word for a row that is always active and cannot be dropped."""
+
+
+def _sides(qp: Dense) -> tuple[Array, Array]:
+    """Lower and upper sides of bounds, inequalities and equalities, in order."""
+    lower = np.concatenate([qp.lb, np.full(len(qp.h), -np.inf), qp.b])
+    return lower, np.concatenate([qp.ub, qp.h, qp.b])
+
+
+def _split(qp: Dense, multipliers: Array) -> Duals:
+    """Multipliers of the stacked rows by kind."""
+    n, mineq = len(qp.q), len(qp.h)
+    box, z, y = np.split(np.asarray(multipliers, dtype=np.float64), [n, n + mineq])
+    return Duals(y=y, z=z, z_box=box)
+
+
+@dataclass
+class OsqpSession:
+    """OSQP, updated in place; it starts from its last answer when warm.
+
+    Attributes:
+        mode: "warm", or "cold": the last answer is forgotten before each solve.
+        settings: OSQP's own; the tight ones by default.
+        tolerance: KKT residual that counts as solved.
+    """
+
+    mode: str = "warm"
+    settings: Mapping[str, Any] = field(default_factory=lambda: TIGHT["osqp"])
+    tolerance: float = 1e-6
+    name: str = field(default="osqp", init=False)
+    _solver: Any = field(default=None, init=False, repr=False)
+    _problem: Dense | None = field(default=None, init=False, repr=False)
+
+    def setup(self, instance: Instance) -> None:
+        """Give OSQP the problem, every entry of the matrices kept."""
+        import osqp
+
+        qp = Dense.of(instance.problem)
+        lower, upper = _sides(qp)
+        self._solver = osqp.OSQP()
+        self._solver.setup(
+            P=_full_csc(np.triu(qp.P), upper_only=True),
+            q=qp.q,
+            A=_rows_csc(qp),
+            l=lower,
+            u=upper,
+            verbose=False,
+            warm_starting=self.mode == "warm",
+            **self.settings,
+        )
+        self._problem = qp
+
+    def update(self, instance: Instance) -> None:
+        """Overwrite the numbers; the set-up's time is spent in ``solve``."""
+        self._problem = Dense.of(instance.problem)
+
+    def solve(self) -> Solution:
+        """Hand over the numbers, solve, judge."""
+        qp = self._problem
+        if qp is None:
+            raise ValueError("setup comes before solve")
+        start = time.perf_counter()
+        lower, upper = _sides(qp)
+        self._solver.update(
+            q=qp.q,
+            l=lower,
+            u=upper,
+            Px=qp.P.T[np.tril_indices(len(qp.q))],
+            Ax=_rows_csc(qp).data,
+        )
+        answer = self._solver.solve(raise_error=False)
+        spent = time.perf_counter() - start
+        return solution(
+            qp,
+            answer.x,
+            None if answer.y is None else _split(qp, answer.y),
+            tolerance=self.tolerance,
+            time_s=spent,
+        )
+
+
+@dataclass
+class DaqpSession:
+    """DAQP, updated in place: a dense active-set method, exact in few steps.
+
+    Attributes:
+        mode: "warm" keeps the last active set; "cold" sets up anew each time.
+        settings: DAQP's own; the tight ones by default.
+        tolerance: KKT residual that counts as solved.
+    """
+
+    mode: str = "warm"
+    settings: Mapping[str, Any] = field(default_factory=lambda: TIGHT["daqp"])
+    tolerance: float = 1e-6
+    name: str = field(default="daqp", init=False)
+    _model: Any = field(default=None, init=False, repr=False)
+    _problem: Dense | None = field(default=None, init=False, repr=False)
+    _fresh: bool = field(default=False, init=False, repr=False)
+
+    def setup(self, instance: Instance) -> None:
+        """Give DAQP the problem."""
+        self._problem = Dense.of(instance.problem)
+        self._set_up(self._problem)
+        self._fresh = True
+
+    def update(self, instance: Instance) -> None:
+        """Take the next numbers; they are handed over in ``solve``."""
+        self._problem = Dense.of(instance.problem)
+        self._fresh = False
+
+    def solve(self) -> Solution:
+        """Hand over the numbers, solve, judge."""
+        qp = self._problem
+        if qp is None:
+            raise ValueError("setup comes before solve")
+        start = time.perf_counter()
+        if self.mode == "cold":
+            self._set_up(qp)
+        elif not self._fresh:
+            H, f, rows, upper, lower, _ = _daqp_form(qp)
+            self._model.update(H=H, f=f, A=rows, bupper=upper, blower=lower)
+        self._fresh = False
+        x, _, flag, info = self._model.solve()
+        spent = time.perf_counter() - start
+        found = flag > 0
+        return solution(
+            qp,
+            x if found else None,
+            _split(qp, info["lam"]) if found else None,
+            tolerance=self.tolerance,
+            time_s=spent,
+        )
+
+    def _set_up(self, qp: Dense) -> None:
+        import daqp
+
+        self._model = daqp.Model()
+        self._model.settings = dict(self.settings)
+        self._model.setup(*_daqp_form(qp))
+
+
+def _daqp_form(
+    qp: Dense,
+) -> tuple[Array, Array, Array, Array, Array, NDArray[np.int32]]:
+    """H, f, rows, upper, lower and sense, as DAQP wants them."""
+    lower, upper = _sides(qp)
+    sense = np.zeros(len(upper), dtype=np.int32)
+    sense[len(upper) - len(qp.b) :] = _EQUALITY
+    rows = np.ascontiguousarray(np.vstack([qp.G, qp.A]))
+    big = 1e30
+    return (
+        np.ascontiguousarray(qp.P),
+        np.ascontiguousarray(qp.q),
+        rows,
+        np.minimum(upper, big),
+        np.maximum(lower, -big),
+        sense,
+    )
+
+
+def _rows_csc(qp: Dense) -> Any:
+    """[I; G; A] with all entries of G and A stored, so that updates fit."""
+    from scipy import sparse
+
+    n = len(qp.q)
+    dense = np.vstack([qp.G, qp.A])
+    lower = _full_csc(dense, upper_only=False)
+    return sparse.vstack([sparse.eye(n, format="csc"), lower], format="csc")
+
+
+def _full_csc(matrix: Array, *, upper_only: bool) -> Any:
+    """A compressed matrix that stores zeros too (or the upper triangle's)."""
+    from scipy import sparse
+
+    rows, columns = matrix.shape
+    heights = [min(c + 1, rows) if upper_only else rows for c in range(columns)]
+    indices = np.concatenate([np.arange(k) for k in heights]).astype(np.int32)
+    data = np.concatenate([matrix[:k, c] for c, k in enumerate(heights)])
+    starts = np.concatenate([[0], np.cumsum(heights)]).astype(np.int32)
+    return sparse.csc_matrix((data, indices, starts), shape=matrix.shape)
