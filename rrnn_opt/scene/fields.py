@@ -35,7 +35,7 @@ def shown(value: object) -> str:
     if isinstance(value, dict | list | tuple):
         return f"a {type(value).__name__} of {len(value)}"
     try:
-        text = repr(value)
+        text = " ".join(repr(value).split())
     except (ValueError, RecursionError):  # integers of thousands of digits
         text = f"a huge {type(value).__name__}"
     return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."
@@ -136,15 +136,15 @@ def unit(value: object, length: int, field: str) -> tuple[Array, float]:
 
 
 def text(value: object, field: str) -> str:
-    """A string that is not empty.
+    """A printable string that is not empty.
 
     Raises:
         ProblemError: it is not.
     """
     if not isinstance(value, str):
         raise ProblemError(field, f"expected a text, got {shown(value)}")
-    if not value.strip():
-        raise ProblemError(field, "must not be empty")
+    if not value.strip() or not value.isprintable():
+        raise ProblemError(field, f"must be one printable line, got {shown(value)}")
     return value
 
 
@@ -177,7 +177,8 @@ def record(
     known = [*required, *optional]
     for key in value:
         if key not in known:
-            raise ProblemError(join(field, key), _unknown(key, known))
+            message = f"is not a known field; {suggestion(key, known)}"
+            raise ProblemError(join(field, key), message)
     for key in required:
         if key not in value:
             raise ProblemError(join(field, key), "is missing")
@@ -186,12 +187,12 @@ def record(
 
 def join(field: str, key: object) -> str:
     """Name of the entry ``key`` of ``field``."""
-    name = key if isinstance(key, str) else shown(key)
-    name = name if len(name) <= _SHOWN else name[: _SHOWN - 3] + "..."
+    plain = isinstance(key, str) and key.isprintable() and 0 < len(key) <= _SHOWN
+    name = key if plain else shown(key)
     return f"{field}.{name}" if field else name
 
 
-def _unknown(key: object, known: list[str]) -> str:
-    close = difflib.get_close_matches(str(key)[:_SHOWN], known, n=1)
-    hint = f"did you mean '{close[0]}'?" if close else "known: " + ", ".join(known)
-    return f"is not a known field; {hint}"
+def suggestion(word: object, known: Collection[str]) -> str:
+    """The known name closest to ``word``, or all of them, for a message."""
+    close = difflib.get_close_matches(str(word)[:_SHOWN], known, n=1)
+    return f"did you mean '{close[0]}'?" if close else "known: " + ", ".join(known)
