@@ -143,3 +143,15 @@ class DocumentError(RrnnError):
     def __init__(self, path: str, message: str) -> None:
         self.path = path
         super().__init__(f"{path}: {message}")
+
+
+class UndecidedError(RrnnError):
+    """A method cannot settle a claim; the claim stays unknown.
+
+    Attributes:
+        reason: why, in half a sentence.
+    """
+
+    def __init__(self, reason: str) -> None:
+        self.reason = reason
+        super().__init__(reason)
