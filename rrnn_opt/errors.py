@@ -155,3 +155,16 @@ class UndecidedError(RrnnError):
     def __init__(self, reason: str) -> None:
         self.reason = reason
         super().__init__(reason)
+
+
+class LayoutError(ShapeError):
+    """An array has the right shape but the wrong type or memory order.
+
+    Attributes:
+        advice: what to pass instead.
+    """
+
+    def __init__(self, name: str, shape: tuple[int, ...], advice: str) -> None:
+        super().__init__(name, shape, shape)
+        self.advice = advice
+        self.args = (f"{name}: {advice}",)

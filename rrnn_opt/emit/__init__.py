@@ -1,1 +1,20 @@
-"""TODO-DOC emit."""
+"""From a symbolic function to clean C99, and to compiled code on this machine."""
+
+from rrnn_opt.emit.c99 import c_function
+from rrnn_opt.emit.compiler import Compiler, find_compiler
+from rrnn_opt.emit.host import Built, build, load
+from rrnn_opt.emit.program import Program, compile
+from rrnn_opt.emit.prologue import Real, prologue
+
+__all__ = [
+    "Built",
+    "Compiler",
+    "Program",
+    "Real",
+    "build",
+    "c_function",
+    "compile",
+    "find_compiler",
+    "load",
+    "prologue",
+]

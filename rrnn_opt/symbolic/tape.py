@@ -160,6 +160,7 @@ def _merged(fn: ca.Function) -> tuple[list[Instruction], list[Instruction]]:
     results: list[Instruction] = []
     known: dict[tuple[object, ...], int] = {}
     register: dict[int, int] = {}
+    args: tuple[int, ...]
     for code, reads, writes, const in _raw(fn):
         name = _name(code)
         if name == "output":
@@ -169,7 +170,8 @@ def _merged(fn: ca.Function) -> tuple[list[Instruction], list[Instruction]]:
         elif name == "assign":
             register[writes[0]] = register[reads[0]]
         else:
-            slot_in, args = None, ()
+            slot_in: tuple[int, int] | None = None
+            args = ()
             if name == "input":
                 slot_in = (reads[0], slots_in[reads[0]][reads[1]])
             else:

@@ -1,0 +1,76 @@
+"""The head of every emitted translation unit: types, macros, support code.
+
+Support headers are inlined, so that a translation unit stands alone: the text
+is the whole truth that a cache key or a reader needs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import resources
+from typing import Final, Literal
+
+from rrnn_opt.errors import RrnnError
+
+Real = Literal["double", "float"]
+SUFFIX: Final[dict[str, str]] = {"double": "", "float": "F"}
+
+_HEAD = """\
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef {real} real_t;
+#define RRNN_C(literal) {literal}
+#define RRNN_SQRT(x) sqrt{f}(x)
+#define RRNN_FABS(x) fabs{f}(x)
+#if defined(__GNUC__)
+#define RRNN_UNUSED __attribute__((unused))
+#define RRNN_EXPORT __attribute__((visibility("default")))
+#else
+#define RRNN_UNUSED
+#define RRNN_EXPORT
+#endif
+"""
+
+
+def prologue(real: Real = "double", *, support: Sequence[str] = ()) -> str:
+    """Text that opens a translation unit.
+
+    It defines ``real_t``, ``RRNN_C(0.5)`` (a literal of that type),
+    ``RRNN_SQRT``, ``RRNN_FABS``, ``RRNN_UNUSED``, ``RRNN_EXPORT``,
+    ``rrnn_sincos_t`` and ``rrnn_sincos``.
+
+    Args:
+        real: C type of ``real_t``.
+        support: further headers of ``emit/support`` to inline, in this order,
+            e.g. ``("hildreth.h",)``.
+
+    Returns:
+        C99 text without dependencies other than the standard headers.
+    """
+    literal = "literal##F" if require_real(real) == "float" else "literal"
+    suffix = "f" if real == "float" else ""
+    head = _HEAD.format(real=real, literal=literal, f=suffix)
+    parts = [support_text(name) for name in (f"sincos_{real}.h", *support)]
+    return "\n".join([head, *parts])
+
+
+def support_text(name: str) -> str:
+    """Text of one header in ``emit/support``.
+
+    Raises:
+        RrnnError: there is no such header.
+    """
+    try:
+        return (resources.files("rrnn_opt.emit") / "support" / name).read_text("utf-8")
+    except FileNotFoundError as error:
+        raise RrnnError(f"no support header named '{name}'") from error
+
+
+def require_real(real: str) -> str:
+    """Return ``real`` if it names a C type that the emitter knows."""
+    if real not in SUFFIX:
+        raise RrnnError(f"real must be 'double' or 'float', got '{real}'")
+    return real
