@@ -85,8 +85,8 @@ def not_negative(value: object, field: str) -> float:
     return result
 
 
-def vector(value: object, length: int, field: str) -> Array:
-    """A read-only vector of ``length`` finite numbers.
+def vector(value: object, length: int | None, field: str) -> Array:
+    """A read-only vector of ``length`` finite numbers (None: any length).
 
     Raises:
         ProblemError: it is not a list of that many numbers.
@@ -94,10 +94,10 @@ def vector(value: object, length: int, field: str) -> Array:
     if isinstance(value, np.ndarray) and value.ndim == 1:
         value = list(value)
     if not isinstance(value, list | tuple):
-        raise ProblemError(
-            field, f"expected a list of {length} numbers, got {shown(value)}"
-        )
-    if len(value) != length:
+        count = "" if length is None else f"{length} "
+        message = f"expected a list of {count}numbers, got {shown(value)}"
+        raise ProblemError(field, message)
+    if length is not None and len(value) != length:
         raise ProblemError(field, f"expected {length} numbers, got {len(value)}")
     array = np.array([number(v, f"{field}[{i}]") for i, v in enumerate(value)])
     array.flags.writeable = False
@@ -187,12 +187,13 @@ def record(
 
 def join(field: str, key: object) -> str:
     """Name of the entry ``key`` of ``field``."""
-    plain = isinstance(key, str) and key.isprintable() and 0 < len(key) <= _SHOWN
-    name = key if plain else shown(key)
+    name = shown(key)
+    if isinstance(key, str) and key.isprintable() and 0 < len(key) <= _SHOWN:
+        name = key
     return f"{field}.{name}" if field else name
 
 
 def suggestion(word: object, known: Collection[str]) -> str:
     """The known name closest to ``word``, or all of them, for a message."""
-    close = difflib.get_close_matches(str(word)[:_SHOWN], known, n=1)
+    close = difflib.get_close_matches(shown(word), known, n=1)
     return f"did you mean '{close[0]}'?" if close else "known: " + ", ".join(known)

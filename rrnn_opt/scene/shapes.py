@@ -8,13 +8,13 @@ capsules is their local z; a capsule's length is between its sphere centres.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.scene import fields
+from rrnn_opt.scene import fields as check
 from rrnn_opt.scene.pose import IDENTITY, frame_around, matrix_from_quaternion
 
 Array = NDArray[np.float64]
@@ -38,9 +38,9 @@ def _checked(shape: object, **values: object) -> None:
 
 def _pose(shape: Box | Cylinder | Capsule) -> dict[str, object]:
     return {
-        "name": fields.text(shape.name, "name"),
-        "position": fields.vector(shape.position, 3, "position"),
-        "quat_xyzw": fields.unit(shape.quat_xyzw, 4, "quat_xyzw")[0],
+        "name": check.text(shape.name, "name"),
+        "position": check.vector(shape.position, 3, "position"),
+        "quat_xyzw": check.unit(shape.quat_xyzw, 4, "quat_xyzw")[0],
     }
 
 
@@ -53,7 +53,21 @@ def _packed(rotation: Array, position: Array, *dims: float) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class Box:
+class _Named:
+    """What all shapes have: a kind, a name, and a way into the problem file."""
+
+    kind: ClassVar[str]
+    name: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """The obstacle as the problem file writes it."""
+        keys = [entry.name for entry in fields(self) if entry.name != "name"]
+        values = {key: np.asarray(getattr(self, key)).tolist() for key in keys}
+        return {"name": self.name, "type": self.kind, **values}
+
+
+@dataclass(frozen=True, eq=False)
+class Box(_Named):
     """A box.
 
     Attributes:
@@ -68,13 +82,12 @@ class Box:
     """
 
     kind: ClassVar[str] = "box"
-    name: str
     size: Array
     position: Array = field(default_factory=_origin)
     quat_xyzw: Array = field(default_factory=_upright)
 
     def __post_init__(self) -> None:
-        _checked(self, size=fields.sizes(self.size, 3, "size"), **_pose(self))
+        _checked(self, size=check.sizes(self.size, 3, "size"), **_pose(self))
 
     @property
     def rotation(self) -> Array:
@@ -85,13 +98,9 @@ class Box:
         """Rotation, position and half edges, (16,)."""
         return _packed(self.rotation, self.position, *(0.5 * self.size))
 
-    def to_dict(self) -> dict[str, Any]:
-        """The obstacle as the problem file writes it."""
-        return _written(self, "size", "position", "quat_xyzw")
-
 
 @dataclass(frozen=True, eq=False)
-class Cylinder:
+class Cylinder(_Named):
     """A cylinder around its local z axis.
 
     Attributes:
@@ -106,15 +115,14 @@ class Cylinder:
     """
 
     kind: ClassVar[str] = "cylinder"
-    name: str
     radius: float
     length: float
     position: Array = field(default_factory=_origin)
     quat_xyzw: Array = field(default_factory=_upright)
 
     def __post_init__(self) -> None:
-        radius = fields.positive(self.radius, "radius")
-        length = fields.positive(self.length, "length")
+        radius = check.positive(self.radius, "radius")
+        length = check.positive(self.length, "length")
         _checked(self, radius=radius, length=length, **_pose(self))
 
     @property
@@ -126,13 +134,9 @@ class Cylinder:
         """Rotation, position, radius and half length, (16,)."""
         return _packed(self.rotation, self.position, self.radius, 0.5 * self.length)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The obstacle as the problem file writes it."""
-        return _written(self, "radius", "length", "position", "quat_xyzw")
-
 
 @dataclass(frozen=True, eq=False)
-class Capsule:
+class Capsule(_Named):
     """All points within ``radius`` of a segment along the local z axis.
 
     Attributes:
@@ -147,15 +151,14 @@ class Capsule:
     """
 
     kind: ClassVar[str] = "capsule"
-    name: str
     radius: float
     length: float
     position: Array = field(default_factory=_origin)
     quat_xyzw: Array = field(default_factory=_upright)
 
     def __post_init__(self) -> None:
-        radius = fields.positive(self.radius, "radius")
-        length = fields.positive(self.length, "length")
+        radius = check.positive(self.radius, "radius")
+        length = check.positive(self.length, "length")
         _checked(self, radius=radius, length=length, **_pose(self))
 
     @property
@@ -167,13 +170,9 @@ class Capsule:
         """Rotation, position, radius and half length, (16,)."""
         return _packed(self.rotation, self.position, self.radius, 0.5 * self.length)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The obstacle as the problem file writes it."""
-        return _written(self, "radius", "length", "position", "quat_xyzw")
-
 
 @dataclass(frozen=True, eq=False)
-class Sphere:
+class Sphere(_Named):
     """A ball.
 
     Attributes:
@@ -186,16 +185,15 @@ class Sphere:
     """
 
     kind: ClassVar[str] = "sphere"
-    name: str
     radius: float
     position: Array = field(default_factory=_origin)
 
     def __post_init__(self) -> None:
         _checked(
             self,
-            name=fields.text(self.name, "name"),
-            radius=fields.positive(self.radius, "radius"),
-            position=fields.vector(self.position, 3, "position"),
+            name=check.text(self.name, "name"),
+            radius=check.positive(self.radius, "radius"),
+            position=check.vector(self.position, 3, "position"),
         )
 
     @property
@@ -207,13 +205,9 @@ class Sphere:
         """Identity, position and radius, (16,)."""
         return _packed(self.rotation, self.position, self.radius)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The obstacle as the problem file writes it."""
-        return _written(self, "radius", "position")
-
 
 @dataclass(frozen=True, eq=False)
-class HalfSpace:
+class HalfSpace(_Named):
     """The solid ``{x : normal.x <= offset}``.
 
     A normal that is nearly of unit length is normalised together with the
@@ -229,14 +223,13 @@ class HalfSpace:
     """
 
     kind: ClassVar[str] = "halfspace"
-    name: str
     normal: Array
     offset: float
 
     def __post_init__(self) -> None:
-        normal, length = fields.unit(self.normal, 3, "normal")
-        offset = fields.number(self.offset, "offset") / length
-        name = fields.text(self.name, "name")
+        normal, length = check.unit(self.normal, 3, "normal")
+        offset = check.number(self.offset, "offset") / length
+        name = check.text(self.name, "name")
         _checked(self, name=name, normal=normal, offset=offset)
 
     @property
@@ -253,14 +246,5 @@ class HalfSpace:
         """Rotation, zeros and offset, (16,)."""
         return _packed(self.rotation, self.position, self.offset)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The obstacle as the problem file writes it."""
-        return _written(self, "normal", "offset")
-
 
 Obstacle = Box | Cylinder | Capsule | Sphere | HalfSpace
-
-
-def _written(shape: Obstacle, *keys: str) -> dict[str, Any]:
-    values = {key: np.asarray(getattr(shape, key)).tolist() for key in keys}
-    return {"name": shape.name, "type": shape.kind, **values}

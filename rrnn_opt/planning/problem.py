@@ -1,0 +1,219 @@
+"""The planning problem: robot, start, goals and scene, checked when it is built."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rrnn_opt.errors import ProblemError, RobotError
+from rrnn_opt.planning.goals import Goal, JointGoal, goal_name, goals_from_data
+from rrnn_opt.planning.reading import read_json
+from rrnn_opt.robot.builtin import BUILTIN
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.scene import fields
+from rrnn_opt.scene.reading import scene_from_list
+from rrnn_opt.scene.scene import Scene
+
+Array = NDArray[np.float64]
+
+_REQUIRED = ("robot", "start", "goal")
+_OPTIONAL = ("name", "frame", "spheres", "locked", "obstacles", "attached", "margin")
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """From ``start`` to any one of ``goals`` among the obstacles of ``scene``.
+
+    Attributes:
+        robot: the arm.
+        start: joint values, (nv,), rad or m; inside the limits.
+        goals: one or more; any will do.
+        scene: the obstacles.
+        margin: clearance to keep from obstacles, m, zero or more.
+        frame: frame that tip goals speak of; the robot's tip without one.
+        robot_ref: robot as the problem file names it.
+        spheres_ref: sphere file as the problem file names it, or "".
+        locked: values of joints of a URDF that do not move, rad or m.
+        name: for reports, may be empty.
+
+    Raises:
+        ProblemError: names the field that is not valid.
+    """
+
+    robot: Robot
+    start: Array
+    _: KW_ONLY
+    goals: tuple[Goal, ...]
+    scene: Scene = field(default_factory=Scene)
+    margin: float = 0.0
+    frame: str = ""
+    robot_ref: str = ""
+    spheres_ref: str = ""
+    locked: Mapping[str, float] = field(default_factory=dict)
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        checked = {
+            "start": fields.vector(self.start, self.robot.nv, "start"),
+            "goals": tuple(self.goals),
+            "margin": fields.not_negative(self.margin, "margin"),
+            "frame": _frame(self.robot, self.frame),
+            "robot_ref": self.robot_ref or self.robot.name,
+            "locked": dict(self.locked),
+        }
+        for key, value in checked.items():
+            object.__setattr__(self, key, value)
+        _require_spheres(self.robot)
+        _require_inside(self.robot, self.start, "start")
+        _require_goals(self.robot, self.goals)
+
+    @staticmethod
+    def load(path: str | Path) -> Problem:
+        """The problem that a file holds; paths in it start at its folder.
+
+        Raises:
+            DocumentError: the file is no JSON document.
+            ProblemError: names the field that is not valid.
+            RobotError: the robot's own files cannot be used.
+        """
+        data = read_json(path)
+        return Problem.from_dict(data, base_dir=Path(path).parent)
+
+    @staticmethod
+    def from_dict(data: object, base_dir: str | Path = ".") -> Problem:
+        """The problem in the problem file's form.
+
+        Args:
+            data: the document, as read from JSON.
+            base_dir: folder at which relative paths start.
+
+        Raises:
+            ProblemError: names the field that is not valid.
+            RobotError: the robot's own files cannot be used.
+        """
+        given = fields.record(data, "", required=_REQUIRED, optional=_OPTIONAL)
+        _refuse_attached(given.get("attached", []))
+        optional = ("name", "frame", "spheres")
+        texts = {key: fields.text(given[key], key) for key in optional if key in given}
+        locked = _locked(given.get("locked", {}))
+        # what is cheap to refuse is refused before a robot is loaded
+        goals = goals_from_data(given["goal"])
+        scene = scene_from_list(given.get("obstacles", []))
+        fields.vector(given["start"], None, "start")
+        ref = fields.text(given["robot"], "robot")
+        return Problem(
+            _robot(ref, Path(base_dir), texts, locked),
+            given["start"],
+            goals=goals,
+            scene=scene,
+            margin=given.get("margin", 0.0),
+            frame=texts.get("frame", ""),
+            robot_ref=ref,
+            spheres_ref=texts.get("spheres", ""),
+            locked=locked,
+            name=texts.get("name", ""),
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """The problem file's form with the defaults filled in."""
+        goals = [goal.to_dict() for goal in self.goals]
+        named = {"name": self.name, "spheres": self.spheres_ref}
+        return {
+            **{key: value for key, value in named.items() if value},
+            "robot": self.robot_ref,
+            "frame": self.frame,
+            "locked": dict(self.locked),
+            "start": self.start.tolist(),
+            "goal": goals[0] if len(goals) == 1 else goals,
+            "obstacles": self.scene.to_dict(),
+            "margin": self.margin,
+        }
+
+
+def _robot(
+    ref: str, base: Path, texts: dict[str, str], locked: dict[str, float]
+) -> Robot:
+    if ref in BUILTIN:
+        for key, given in (("spheres", "spheres" in texts), ("locked", bool(locked))):
+            if given:
+                message = f"is for robots from a URDF, and '{ref}' is built in"
+                raise ProblemError(key, message)
+        return Robot.builtin(ref)
+    if not ref.lower().endswith((".urdf", ".xml")) and "/" not in ref:
+        message = f"no robot is called {fields.shown(ref)}"
+        hint = fields.suggestion(ref, BUILTIN)
+        raise ProblemError(
+            "robot", f"{message}; {hint}; or give a path of a .urdf file"
+        )
+    spheres = _file(base, texts["spheres"], "spheres") if "spheres" in texts else None
+    urdf = _file(base, ref, "robot")
+    tip = texts.get("frame")
+    return Robot.from_urdf(urdf, tip=tip, spheres=spheres, locked=locked)
+
+
+def _file(base: Path, ref: str, field: str) -> Path:
+    path = base / ref
+    try:
+        found = path.is_file()
+    except OSError:  # a name that no file can have
+        found = False
+    if not found:
+        raise ProblemError(field, f"there is no file '{path}'")
+    return path
+
+
+def _locked(data: object) -> dict[str, float]:
+    if not isinstance(data, dict):
+        message = f"expected an object, got {fields.shown(data)}"
+        raise ProblemError("locked", message)
+    return {
+        fields.text(joint, "locked"): fields.number(value, fields.join("locked", joint))
+        for joint, value in data.items()
+    }
+
+
+def _refuse_attached(data: object) -> None:
+    if data != []:
+        message = "this version does not support attached bodies; leave it out"
+        raise ProblemError("attached", message)
+
+
+def _frame(robot: Robot, name: str) -> str:
+    try:
+        return robot.frame(name or None).name
+    except RobotError as error:
+        raise ProblemError("frame", str(error)) from None
+
+
+def _require_spheres(robot: Robot) -> None:
+    if not robot.spheres:
+        message = (
+            f"'{robot.name}' has no collision spheres; make a sphere file with "
+            '`rrnn spheres URDF --out FILE` and name it under "spheres"'
+        )
+        raise ProblemError("robot", message)
+
+
+def _require_inside(robot: Robot, joints: Array, field: str) -> None:
+    limits = zip(robot.limits.lower, robot.limits.upper, strict=True)
+    for k, (low, high) in enumerate(limits):
+        value = float(joints[k])
+        if not low <= value <= high:
+            bounds = f"its limits [{float(low)!r}, {float(high)!r}]"
+            message = f"joint '{robot.joint_names[k]}' at {value!r} is outside {bounds}"
+            raise ProblemError(f"{field}[{k}]", message)
+
+
+def _require_goals(robot: Robot, goals: tuple[Goal, ...]) -> None:
+    if not goals:
+        raise ProblemError("goal", "needs at least one goal")
+    for index, goal in enumerate(goals):
+        if isinstance(goal, JointGoal):
+            name = f"{goal_name(index, len(goals))}.joints"
+            fields.vector(goal.joints, robot.nv, name)
+            _require_inside(robot, goal.joints, name)
