@@ -16,6 +16,7 @@ import casadi as ca
 
 from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.symbolic.symbol import Symbol, require_declared, require_names
+from rrnn_opt.symbolic.tape import fingerprint
 
 SENSES = ("==0", ">=0", "<=0", ">0", "<0")
 ORDERS = ("first-order", "second-order", "discrete")
@@ -167,11 +168,9 @@ class Claim:
     def fingerprint(self) -> str:
         """SHA-256 of what is claimed: graph, senses, domain, dynamics.
 
-        Two claims of one fingerprint state the same; names, words and sources
-        are not part of it.
+        Two claims of one fingerprint state the same of variables of the same
+        names; id, words and source are not part of it.
         """
-        from rrnn_opt.symbolic.tape import fingerprint
-
         names = [s.name for s in self.variables]
         ranges = sorted(
             (names.index(r.variable), [str(x) for x in (*r.lower, *r.upper)])

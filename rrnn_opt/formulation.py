@@ -1,0 +1,133 @@
+"""A redundancy-resolution scheme, declared once as a parametric convex QP."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import cast
+
+import casadi as ca
+import numpy as np
+
+from rrnn_opt.errors import NotFiniteError, ShapeError
+from rrnn_opt.symbolic.lagrangian import Lagrangian
+from rrnn_opt.symbolic.qp import QP
+from rrnn_opt.symbolic.symbol import (
+    Symbol,
+    dense,
+    require_declared,
+    require_names,
+    shape_of,
+)
+from rrnn_opt.symbolic.tape import fingerprint
+
+_ABSENT = cast(ca.SX, None)  # only while it is being built; SX afterwards
+
+
+@dataclass(frozen=True, eq=False)
+class Formulation:
+    """``min cost`` over u, s.t. ``equalities == 0, inequalities <= 0`` and bounds.
+
+    Everything is checked here and nothing later: shapes, declared symbols, and
+    that it is a convex QP for every value of the parameters.  A part may be None;
+    afterwards all are dense SX, absent rows having no rows and absent bounds
+    being infinite.
+
+    Attributes:
+        name: a C identifier.
+        decision: u, (n, 1).
+        parameters: all other symbols, in the order of C arguments.
+        cost: (1, 1), quadratic in u with a constant Hessian.
+        equalities: (p, 1), affine in u; zero is meant.
+        inequalities: (m, 1), affine in u; not positive is meant.
+        lower: (n, 1), free of u.
+        upper: (n, 1), free of u.
+        citation: where the scheme comes from.
+        notes: where we differ, and what a user must know.
+
+    Raises:
+        ShapeError: a part has the wrong shape; nothing is ever broadcast.
+        NotAQpError: a part is not what it must be; the message names the
+            operation, the row and the subexpression.
+        NotFiniteError: a bound is NaN.
+        RrnnError: an undeclared symbol, or two of one name.
+    """
+
+    name: str
+    decision: Symbol
+    parameters: tuple[Symbol, ...]
+    cost: ca.SX
+    equalities: ca.SX = _ABSENT
+    inequalities: ca.SX = _ABSENT
+    lower: ca.SX = _ABSENT
+    upper: ca.SX = _ABSENT
+    citation: str = ""
+    notes: str = ""
+
+    def __post_init__(self) -> None:
+        n = self.decision.size
+        if self.decision.shape != (n, 1):
+            raise ShapeError(f"{self.name}: decision", (n, 1), self.decision.shape)
+        require_names((self.decision, *self.parameters), self.name)
+        self._set("cost", dense(self.cost, (1, 1), f"{self.name}: cost"))
+        self._set("equalities", self._rows("equalities", self.equalities))
+        self._set("inequalities", self._rows("inequalities", self.inequalities))
+        self._set("lower", self._side("lower", self.lower, -np.inf))
+        self._set("upper", self._side("upper", self.upper, np.inf))
+        for part in ("cost", "equalities", "inequalities", "lower", "upper"):
+            symbols = (self.decision, *self.parameters)
+            require_declared(getattr(self, part), symbols, f"{self.name}: {part}")
+        self.qp  # noqa: B018  settles here and now whether this is a convex QP
+
+    def _set(self, field: str, value: ca.SX) -> None:
+        object.__setattr__(self, field, value)
+
+    def _rows(self, part: str, value: ca.SX | None) -> ca.SX:
+        if value is None:
+            return ca.SX(0, 1)
+        return dense(value, (shape_of(value)[0], 1), f"{self.name}: {part}")
+
+    def _side(self, part: str, value: ca.SX | None, free: float) -> ca.SX:
+        n = self.decision.size
+        if value is None:
+            return ca.SX(ca.repmat(free, n, 1))
+        side = dense(value, (n, 1), f"{self.name}: {part}")
+        if any(x.is_constant() and np.isnan(float(x)) for x in ca.vertsplit(side)):
+            raise NotFiniteError(f"{self.name}: {part} (NaN)")
+        return side
+
+    @cached_property
+    def qp(self) -> QP:
+        """Standard form, symbolic in the parameters."""
+        return QP.of(
+            self.decision,
+            self.parameters,
+            cost=self.cost,
+            equalities=self.equalities,
+            inequalities=self.inequalities,
+            lower=self.lower,
+            upper=self.upper,
+        )
+
+    @cached_property
+    def lagrangian(self) -> Lagrangian:
+        """L, its gradient, the KKT residual and the monotone map."""
+        return Lagrangian.of(
+            self.qp,
+            cost=self.cost,
+            equalities=self.equalities,
+            inequalities=self.inequalities,
+        )
+
+    def function(self) -> ca.Function:
+        """The declaration: decision and parameters in; cost, rows, bounds out."""
+        symbols = (self.decision, *self.parameters)
+        parts = ["cost", "equalities", "inequalities", "lower", "upper"]
+        outputs = [getattr(self, part) for part in parts]
+        names = [s.name for s in symbols]
+        return ca.Function(self.name, [s.sx for s in symbols], outputs, names, parts)
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """SHA-256 of the declaration's graph."""
+        return fingerprint(self.function())
