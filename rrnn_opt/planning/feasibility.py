@@ -1,0 +1,111 @@
+"""Proofs, before any search, that a problem has no solution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rrnn_opt.planning.goals import JointGoal, TipGoal
+from rrnn_opt.planning.problem import Problem
+from rrnn_opt.planning.runtime_library import Contact, Search
+from rrnn_opt.robot.bound import reach_ball
+from rrnn_opt.robot.robot import CONTINUOUS, Robot
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Infeasible:
+    """Why there is no solution, with what shows it.
+
+    Attributes:
+        message: one sentence.
+        witness: the numbers behind it.
+    """
+
+    message: str
+    witness: dict[str, Any] = field(default_factory=dict)
+
+
+def nearest_turn(robot: Robot, q: Array, reference: Array) -> Array:
+    """``q`` with continuous joints moved by whole turns nearest ``reference``."""
+    result = q.copy()
+    for joint, kind in enumerate(robot.tree.types):
+        if kind == CONTINUOUS:
+            k = int(robot.tree.source[joint])
+            turns = np.round((reference[k] - q[k]) / (2 * np.pi))
+            result[k] = q[k] + 2 * np.pi * turns
+    return result
+
+
+def describe(problem: Problem, contact: Contact, q: Array) -> tuple[str, dict[str, Any]]:
+    """The pair of a contact in words, and as data."""
+    spheres = problem.robot.spheres
+    link = spheres[contact.sphere].link
+    other = (
+        spheres[contact.other].link
+        if contact.is_self
+        else problem.scene.obstacles[contact.other].name
+    )
+    margin = 0.0 if contact.is_self else problem.margin
+    clearance = contact.gap + margin
+    what = f"link '{link}' and '{other}' are {clearance:.6g} m apart"
+    if margin > 0.0:
+        what += f" (margin {margin:g} m)"
+    data = {"q": q.tolist(), "link": link, "other": other, "clearance": clearance}
+    return what, data
+
+
+def blocked(problem: Problem, search: Search, q: Array, name: str) -> Infeasible | None:
+    """The posture's collision, or None when it keeps every margin."""
+    contact = search.closest(q)
+    if contact is None or contact.gap >= 0.0:
+        return None
+    what, data = describe(problem, contact, q)
+    return Infeasible(f"{name} is in collision: {what}", data)
+
+
+def out_of_reach(problem: Problem, goal: TipGoal) -> Infeasible | None:
+    """Proof that a tip goal lies beyond the sum of the link lengths."""
+    centre, radius = reach_ball(problem.robot, problem.frame)
+    distance = float(np.linalg.norm(np.asarray(goal.position) - centre))
+    if distance <= radius + goal.tolerance:
+        return None
+    return Infeasible(
+        f"goal is beyond reach: {distance:.6g} m from the first joint, while the arm"
+        f" reaches {radius:.6g} m",
+        {"distance": distance, "reach": radius, "center": centre.tolist()},
+    )
+
+
+@dataclass(frozen=True)
+class OpenGoals:
+    """Goals that no proof has closed."""
+
+    joints: tuple[Array, ...]
+    tips: tuple[TipGoal, ...]
+
+
+def open_goals(problem: Problem, search: Search) -> OpenGoals | Infeasible:
+    """Goals worth a search, or the proof that none is left."""
+    joints: list[Array] = []
+    tips: list[TipGoal] = []
+    closed: list[Infeasible] = []
+    for goal in problem.goals:
+        if isinstance(goal, JointGoal):
+            q = nearest_turn(problem.robot, np.asarray(goal.joints), problem.start)
+            verdict = blocked(problem, search, q, "goal")
+            if verdict is None:
+                joints.append(q)
+        else:
+            verdict = out_of_reach(problem, goal)
+            if verdict is None:
+                tips.append(goal)
+        if verdict is not None:
+            closed.append(verdict)
+    if not joints and not tips:
+        return closed[0]
+    return OpenGoals(tuple(joints), tuple(tips))

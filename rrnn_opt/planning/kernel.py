@@ -1,0 +1,229 @@
+"""The planner's symbolic half: every formula of its runtime, from SX to C.
+
+The hand-written runtime holds loops, trees and linear algebra.  Frames,
+drives, distances, rows, bounds and the memory cell are written here once, as
+CasADi functions, and emitted in front of it into the same translation unit.
+"""
+
+from __future__ import annotations
+
+import pathlib
+
+import casadi as ca
+
+from rrnn_opt import emit
+from rrnn_opt.formulations import slide
+from rrnn_opt.networks import MemoryCell
+from rrnn_opt.planning.tables import tables
+from rrnn_opt.robot import Kinematics, Robot
+from rrnn_opt.robot.bound import ancestor_mask, reach
+from rrnn_opt.robot.motion_bound import motion_bound, travel
+from rrnn_opt.robot.robot import JointTree
+from rrnn_opt.scene.distance import PRIMITIVES, distance_function
+
+RUNTIME = (
+    "rng.h",
+    "types.h",
+    "memory.c",
+    "world.c",
+    "slide.c",
+    "tree.c",
+    "goals.c",
+    "search.c",
+    "segment.c",
+    "api.c",
+)
+PREFIX = "rrnn_planner_"
+
+
+def _function(
+    name: str, inputs: dict[str, ca.SX], outputs: dict[str, ca.SX]
+) -> ca.Function:
+    return ca.Function(
+        name,
+        list(inputs.values()),
+        [ca.densify(value) for value in outputs.values()],
+        list(inputs),
+        list(outputs),
+    )
+
+
+def frames_function(kin: Kinematics) -> ca.Function:
+    """``q -> axes, origins, centers, tip_position, tip_rotation``."""
+    tip = kin.pose()
+    return _function(
+        "k_frames",
+        {"q": kin.q},
+        {
+            "axes": kin.axes(),
+            "origins": kin.origins(),
+            "centers": kin.sphere_centres(),
+            "tip_position": tip[:3, 3],
+            "tip_rotation": tip[:3, :3],
+        },
+    )
+
+
+def row_functions(robot: Robot) -> list[ca.Function]:
+    """Contact row, its right-hand side, the step's box, and both bounds."""
+    tree, nj, nv = robot.tree, robot.tree.nj, robot.nv
+    axes, origins = ca.SX.sym("axes", 3, nj), ca.SX.sym("origins", 3, nj)
+    mask, lever = ca.SX.sym("mask", nj), ca.SX.sym("reach", nj)
+    point, n, u = ca.SX.sym("point", 3), ca.SX.sym("n", 3), ca.SX.sym("u", nv)
+    q, low, high = (ca.SX.sym(name, nv) for name in ("q", "lower", "upper"))
+    gap, margin, bound, radius = (
+        ca.SX.sym(name) for name in ("gap", "margin", "bound", "radius")
+    )
+    lower, upper = slide.step_box(q, low, high, radius)
+    frame = {"axes": axes, "origins": origins}
+    return [
+        _function(
+            "k_row",
+            {**frame, "mask": mask, "point": point, "n": n},
+            {"row": slide.row(tree, axes, origins, mask, point, n)},
+        ),
+        _function(
+            "k_offset",
+            {"gap": gap, "margin": margin, "bound": bound},
+            {"right": slide.offset(gap, margin, bound)},
+        ),
+        _function(
+            "k_box",
+            {"q": q, "lower": low, "upper": high, "radius": radius},
+            {"least": lower, "most": upper},
+        ),
+        _function(
+            "k_motion_bound",
+            {"u": u, "reach": lever, "mask": mask},
+            {"bound": motion_bound(tree, u, lever, mask)},
+        ),
+        travel_function(robot),
+    ]
+
+
+def travel_function(robot: Robot) -> ca.Function:
+    """``u -> way`` of every sphere, an upper bound in m."""
+    u = ca.SX.sym("u", robot.nv)
+    levers, masks = reach(robot), ancestor_mask(robot).astype(float)
+    ways = [
+        travel(robot.tree, u, ca.SX(levers[:, i]), ca.SX(masks[:, i]))
+        for i in range(len(robot.spheres))
+    ]
+    return _function("k_travel", {"u": u}, {"way": ca.vertcat(*ways)})
+
+
+def _tip_jacobian(
+    tree: JointTree, moving: tuple[int, ...], axes: ca.SX, origins: ca.SX, tip: ca.SX
+) -> ca.SX:
+    """Position Jacobian of the tip from the world axes, (3, nv)."""
+    mask = ca.SX([float(k in moving) for k in range(tree.nj)])
+    eye = ca.SX.eye(3)
+    return ca.vertcat(
+        *(slide.row(tree, axes, origins, mask, tip, eye[:, i]) for i in range(3))
+    )
+
+
+def _turn_jacobian(tree: JointTree, moving: tuple[int, ...], axes: ca.SX) -> ca.SX:
+    """Angular velocity Jacobian of the tip, (3, nv)."""
+    columns = [ca.SX.zeros(3) for _ in range(1 + int(max(tree.source)))]
+    for k in moving:
+        if tree.types[k] != "prismatic":
+            columns[int(tree.source[k])] += float(tree.multiplier[k]) * axes[:, k]
+    return ca.horzcat(*columns)
+
+
+def drive_functions(robot: Robot) -> list[ca.Function]:
+    """Attractions: to a posture, to a tip position, to a tip pose."""
+    tree, nj, nv = robot.tree, robot.tree.nj, robot.nv
+    moving = tree.ancestors(robot.frame().joint)
+    axes, origins = ca.SX.sym("axes", 3, nj), ca.SX.sym("origins", 3, nj)
+    tip, turn = ca.SX.sym("tip_position", 3), ca.SX.sym("tip_rotation", 3, 3)
+    goal, wanted = ca.SX.sym("position", 3), ca.SX.sym("rotation", 3, 3)
+    q, target, length = ca.SX.sym("q", nv), ca.SX.sym("target", nv), ca.SX.sym("length")
+    linear = _tip_jacobian(tree, moving, axes, origins, tip)
+    full = ca.vertcat(linear, _turn_jacobian(tree, moving, axes))
+    miss = goal - tip
+    twist = sum((ca.cross(turn[:, i], wanted[:, i]) for i in range(3)), ca.SX(0)) / 2
+    way = ca.sqrt(ca.sumsqr(miss))
+    chord = ca.sqrt(ca.sumsqr(turn - wanted) / 2)
+    frame = {"axes": axes, "origins": origins, "tip_position": tip}
+    posture = slide.joint_attraction(q, target, length)
+    to_point = slide.tip_attraction(linear, miss, length)
+    to_pose = slide.tip_attraction(full, ca.vertcat(miss, twist), length)
+    return [
+        _function(
+            "k_drive_joint", {"q": q, "target": target, "length": length}, {"w": posture}
+        ),
+        _function(
+            "k_drive_position",
+            {**frame, "position": goal, "length": length},
+            {"w": to_point, "error": ca.vertcat(way, 0)},
+        ),
+        _function(
+            "k_drive_pose",
+            {
+                **frame,
+                "tip_rotation": turn,
+                "position": goal,
+                "rotation": wanted,
+                "length": length,
+            },
+            {"w": to_pose, "error": ca.vertcat(way, chord)},
+        ),
+    ]
+
+
+def pair_function() -> ca.Function:
+    """Distance of two points and the unit vector from the first to the second."""
+    a, b = ca.SX.sym("a", 3), ca.SX.sym("b", 3)
+    d = ca.sqrt(ca.sumsqr(b - a))
+    n = (b - a) / ca.fmax(d, 1e-12)
+    return _function("k_distance_pair", {"a": a, "b": b}, {"d": d, "n": n})
+
+
+def cell_functions(cell: MemoryCell) -> list[ca.Function]:
+    """The memory cell's exact step, and the square root."""
+    x = ca.SX.sym("x")
+    return [
+        cell.function("k_memory"),
+        _function("k_sqrt", {"x": x}, {"root": ca.sqrt(x)}),
+    ]
+
+
+def dispatch() -> str:
+    """C switch from the kind of an obstacle to its distance function."""
+    cases = "".join(
+        f"    case {i}: k_distance_{kind}(p, shape, d, n); break;\n"
+        for i, kind in enumerate(PRIMITIVES)
+    )
+    return (
+        "static void k_distance(int32_t kind, const double p[3],\n"
+        "                       const double shape[16], double *d, double n[3])\n"
+        "{\n    switch (kind) {\n"
+        f"{cases}"
+        "    default: *d = -1e300; n[0] = n[1] = n[2] = 0.0; break;\n    }\n}\n"
+    )
+
+
+def emitted(robot: Robot, cell: MemoryCell) -> str:
+    """The emitted half of the translation unit: tables and functions."""
+    functions = [
+        frames_function(Kinematics(robot)),
+        *row_functions(robot),
+        *drive_functions(robot),
+        pair_function(),
+        *cell_functions(cell),
+    ]
+    named = [(f, f.name()) for f in functions]
+    named += [(distance_function(kind), f"k_distance_{kind}") for kind in PRIMITIVES]
+    texts = [emit.c_function(f, name) for f, name in named]
+    return "\n".join([tables(robot), *texts, dispatch()])
+
+
+def source(robot: Robot, cell: MemoryCell) -> str:
+    """The whole translation unit of a robot's planner, C99."""
+    room = pathlib.Path(__file__).with_name("runtime")
+    runtime = [(room / name).read_text("utf-8") for name in RUNTIME]
+    head = f"#define _POSIX_C_SOURCE 199309L\n#define NAME(x) {PREFIX}##x\n"
+    prologue = emit.prologue("double", support=("hildreth.h",))
+    return "\n".join([head, prologue, emitted(robot, cell), *runtime])

@@ -1,0 +1,238 @@
+"""``plan``: from a problem to a certified, retimed trajectory."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rrnn_opt import check
+from rrnn_opt.errors import ProblemError, RetimeError
+from rrnn_opt.motion import Trajectory, deliver, shortcut
+from rrnn_opt.networks import MemoryCell
+from rrnn_opt.planning.feasibility import Infeasible, OpenGoals, blocked, open_goals
+from rrnn_opt.planning.problem import Problem
+from rrnn_opt.planning.request import pack
+from rrnn_opt.planning.result import PlanResult, PlanStats
+from rrnn_opt.planning.runtime_library import Runtime, Search
+from rrnn_opt.planning.settings import PLANNERS, RandomRnn
+from rrnn_opt.robot import Robot
+
+Array = NDArray[np.float64]
+Progress = Callable[[str, int], None]
+SLICE_S = 0.02
+DEFAULT_EXPLORATIONS = 20_000
+
+
+def runtime_of(robot: Robot, cell: MemoryCell) -> Runtime:
+    """The compiled planner of a robot.
+
+    Raises:
+        CompilerError: there is no C compiler, or it failed.
+    """
+    return Runtime(robot, cell)
+
+
+_built_in = lru_cache(maxsize=16)(runtime_of)
+
+
+@dataclass
+class _Run:
+    """What a plan has so far; a result can be made of it at any time."""
+
+    problem: Problem
+    seed: int
+    planner: str
+    settings: RandomRnn
+    begin: float
+    search: Search | None = None
+    path: Array | None = None
+    trajectory: Trajectory | None = None
+    certificate: dict[str, Any] | None = None
+    times: dict[str, float] = field(default_factory=dict)
+    trees: Any = None
+
+    def result(self, status: str, message: str, **more: Any) -> PlanResult:
+        certificate = self.certificate
+        if certificate is not None:
+            more["certificate"] = certificate
+        return PlanResult(
+            status=status,
+            message=message,
+            problem=self.problem.to_dict(),
+            robot=self.problem.robot.to_dict(),
+            seed=self.seed,
+            planner=self.planner,
+            path=self.path,
+            trajectory=None if self.trajectory is None else self.trajectory.to_dict(),
+            stats=self._stats(),
+            **more,
+        )
+
+    def _stats(self) -> PlanStats:
+        stats = PlanStats(time_s=time.perf_counter() - self.begin, **self.times)
+        if self.search is None:
+            return stats
+        counts = self.search.counts()
+        return replace(
+            stats,
+            random=counts.random,
+            heuristic=counts.heuristic,
+            nodes=counts.nodes,
+            rollout_steps=counts.rollout_steps,
+            goal_postures=counts.goal_postures,
+            memory_cell=tuple(float(x) for x in self.search.activity()),
+        )
+
+
+def plan(
+    problem: Problem,
+    *,
+    seed: int = 0,
+    planner: str = "random-rnn",
+    settings: RandomRnn | None = None,
+    time_limit: float | None = None,
+    max_explorations: int = DEFAULT_EXPLORATIONS,
+    on_progress: Progress | None = None,
+) -> PlanResult:
+    """Plan, shorten, retime and certify.
+
+    Args:
+        problem: robot, start, goals and scene.
+        seed: of all randomness; without a time limit the same seed gives the
+            same plan on the same machine and compiler.
+        planner: "random-rnn", or "no-learning" (a fair coin for the cell).
+        settings: numbers of the planner; by default those of its name.
+        time_limit: seconds for the search, or None.
+        max_explorations: rollouts started at most.
+        on_progress: called with the stage and the explorations so far.
+
+    Returns:
+        A result in every case that the problem's data allow; see its status.
+
+    Raises:
+        ProblemError: the planner's name or a budget is not valid.
+        CompilerError: there is no C compiler.
+    """
+    chosen = settings or _settings(planner)
+    if max_explorations < 1 or (time_limit is not None and not time_limit > 0.0):
+        raise ProblemError("budget", "explorations and time limit must be positive")
+    run = _Run(problem, seed, planner, chosen, time.perf_counter())
+    begin = time.perf_counter()
+    runtime = _runtime(problem.robot, chosen.cell)
+    run.times["compile_time_s"] = time.perf_counter() - begin
+    return _planned(run, runtime, time_limit, max_explorations, on_progress)
+
+
+def _settings(planner: str) -> RandomRnn:
+    if planner not in PLANNERS:
+        known = ", ".join(PLANNERS)
+        raise ProblemError("planner", f"no planner '{planner}'; there are {known}")
+    return PLANNERS[planner]
+
+
+def _runtime(robot: Robot, cell: MemoryCell) -> Runtime:
+    """Built-in robots are single objects: their runtime is kept in memory."""
+    return _built_in(robot, cell)
+
+
+def _planned(
+    run: _Run,
+    runtime: Runtime,
+    time_limit: float | None,
+    budget: int,
+    on_progress: Progress | None,
+) -> PlanResult:
+    packed = pack(run.problem, (), (), run.seed)
+    with Search(runtime, run.settings, packed.struct, packed.keep) as probe:
+        hit = blocked(run.problem, probe, run.problem.start, "start")
+        goals = hit or open_goals(run.problem, probe)
+    if isinstance(goals, Infeasible):
+        return run.result("infeasible", goals.message, witness=goals.witness)
+    packed = pack(run.problem, goals.joints, goals.tips, run.seed)
+    with Search(runtime, run.settings, packed.struct, packed.keep) as search:
+        run.search = search
+        try:
+            status = _search(run, search, time_limit, budget, on_progress)
+            if status == "solved":
+                return _delivered(run, search, on_progress)
+        except KeyboardInterrupt:
+            return run.result("interrupted", "interrupted; what was found is kept")
+        return run.result(status, _why(status, run, goals))
+
+
+def _search(
+    run: _Run,
+    search: Search,
+    time_limit: float | None,
+    budget: int,
+    on_progress: Progress | None,
+) -> str:
+    begin = time.perf_counter()
+    limit = np.inf if time_limit is None else time_limit
+    status = "paused"
+    try:
+        while status == "paused":
+            left = limit - (time.perf_counter() - begin)
+            if left <= 0.0:
+                return "time_limit"
+            status = search.run(budget, min(SLICE_S, left))
+            if on_progress is not None:
+                counts = search.counts()
+                on_progress("plan", counts.random + counts.heuristic)
+    finally:
+        run.times["plan_time_s"] = time.perf_counter() - begin
+    return status
+
+
+def _why(status: str, run: _Run, goals: OpenGoals) -> str:
+    if status == "no_goal_posture":
+        tries = run.settings.ik_tries + 1
+        return (
+            f"inverse kinematics found no free goal posture in {tries} tries for"
+            f" {len(goals.tips)} goal(s); this is no proof that there is none"
+        )
+    what = {"budget_exhausted": "explorations", "time_limit": "time"}[status]
+    return f"no path found before the {what} were spent; this proves nothing"
+
+
+def _delivered(
+    run: _Run, search: Search, on_progress: Progress | None
+) -> PlanResult:
+    """Shorten, retime and certify the path found; the path is kept anyway."""
+    raw = search.path()
+    run.path = raw
+    if on_progress is not None:
+        on_progress("deliver", len(raw))
+    begin = time.perf_counter()
+    problem, robot = run.problem.to_dict(), run.problem.robot.to_dict()
+    rng = np.random.default_rng([run.seed, 1])
+    checking = [0.0]
+
+    def certify(trajectory: Trajectory) -> Any:
+        start = time.perf_counter()
+        verdict = check.certify_trajectory(robot, problem, trajectory.to_dict())
+        checking[0] += time.perf_counter() - start
+        return verdict
+
+    try:
+        run.path = shortcut(raw, search.segment_free, rng=rng)
+        delivery = deliver(run.path, run.problem.robot.limits, certify)
+    except RetimeError as error:
+        return run.result("uncertified", f"path found, but not timed: {error}")
+    finally:
+        run.times["retime_time_s"] = time.perf_counter() - begin - checking[0]
+    run.trajectory = delivery.trajectory
+    run.certificate = delivery.certificate.to_dict()
+    proved = delivery.certificate.proved
+    return run.result(
+        "solved" if proved else "uncertified",
+        "trajectory found and proved"
+        if proved
+        else "path found, but its trajectory could not be proved; the path is kept",
+    )

@@ -1,0 +1,89 @@
+"""A problem as the arrays that the runtime reads."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rrnn_opt.planning.goals import TipGoal
+from rrnn_opt.planning.problem import Problem
+from rrnn_opt.planning.runtime_library import Request, TipTarget
+from rrnn_opt.scene.distance import PRIMITIVES
+from rrnn_opt.scene.pose import matrix_from_quaternion
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PackedRequest:
+    """``request_t`` and the arrays that it points into."""
+
+    struct: Request
+    keep: tuple[Any, ...]
+
+
+def sampling_box(problem: Problem) -> tuple[Array, Array]:
+    """Box of the random postures: the limits; a turn around the start without."""
+    limits, start = problem.robot.limits, problem.start
+    lower = np.where(np.isfinite(limits.lower), limits.lower, start - np.pi)
+    upper = np.where(np.isfinite(limits.upper), limits.upper, start + np.pi)
+    return lower, upper
+
+
+def tip_target(goal: TipGoal) -> TipTarget:
+    """``tip_goal_t`` of a goal; an angle tolerance becomes its chord."""
+    target = TipTarget(tolerance=goal.tolerance)
+    target.position[:] = list(goal.position)
+    if goal.quat_xyzw is not None:
+        rotation = matrix_from_quaternion(goal.quat_xyzw)
+        target.rotation[:] = list(rotation.ravel(order="F"))
+        target.chord = 2.0 * np.sin(min(goal.angle_tolerance, np.pi) / 2.0)
+        target.has_rotation = 1
+    return target
+
+
+def _seed(seed: int) -> NDArray[np.uint64]:
+    """128 bits of the caller's seed."""
+    return np.random.SeedSequence(seed).generate_state(2, np.uint64)
+
+
+def pack(
+    problem: Problem, joints: tuple[Array, ...], tips: tuple[TipGoal, ...], seed: int
+) -> PackedRequest:
+    """The request of a search.
+
+    Args:
+        problem: robot, scene, start and margin.
+        joints: joint goals, (nv,) each.
+        tips: goals of the end effector.
+        seed: of the runtime's generator.
+    """
+    robot, obstacles = problem.robot, problem.scene.obstacles
+    kinds = list(PRIMITIVES)
+    floats = {
+        "lower": robot.limits.lower,
+        "upper": robot.limits.upper,
+        "sample_lower": sampling_box(problem)[0],
+        "sample_upper": sampling_box(problem)[1],
+        "start": problem.start,
+        "shape": np.concatenate([o.pack() for o in obstacles] or [np.zeros(16)]),
+        "joint_goals": np.concatenate(joints or (np.zeros(1),)),
+    }
+    arrays = {k: np.ascontiguousarray(v, dtype=np.float64) for k, v in floats.items()}
+    kind = np.array([kinds.index(o.kind) for o in obstacles] or [0], dtype=np.int32)
+    targets = (TipTarget * max(len(tips), 1))(*(tip_target(t) for t in tips))
+    struct = Request(
+        **{name: array.ctypes.data for name, array in arrays.items()},
+        kind=kind.ctypes.data,
+        margin=problem.margin,
+        obstacle_count=len(obstacles),
+        joint_goal_count=len(joints),
+        tip_goal_count=len(tips),
+    )
+    struct.tip_goals = ctypes.addressof(targets)
+    struct.seed[:] = [int(word) for word in _seed(seed)]
+    return PackedRequest(struct, (arrays, kind, targets))

@@ -1,0 +1,155 @@
+/* The exported functions; names carry the program's prefix (RRNN_EXPORT). */
+
+typedef struct {
+    const double *lower, *upper, *sample_lower, *sample_upper, *start;
+    const int32_t *kind;
+    const double *shape;
+    const double *joint_goals;
+    const tip_goal_t *tip_goals;
+    double margin;
+    uint64_t seed[2];
+    int32_t obstacle_count, joint_goal_count, tip_goal_count, reserved;
+} request_t;
+
+typedef struct {
+    double gap;           /* m, promised margin already taken off */
+    int32_t sphere;
+    int32_t other;        /* obstacle or second sphere */
+    int32_t is_self;
+    int32_t reserved;
+} closest_t;
+
+static int start_search(planner_t *planner, const request_t *request)
+{
+    if (add_node(planner, 0, request->start, -1, 0, 0) < 0) {
+        return 0;
+    }
+    for (int32_t i = 0; i < request->joint_goal_count; i++) {
+        if (add_node(planner, 1, request->joint_goals + NV * i, -1, 0, 0) < 0) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+RRNN_EXPORT void NAME(free)(planner_t *planner)
+{
+    if (planner != NULL) {
+        free(planner->world.key);
+        free(planner->tree[0].nodes);
+        free(planner->tree[1].nodes);
+        free(planner->pool);
+        free(planner->heap);
+        free(planner->tips);
+        free(planner->cells);
+        free(planner->path);
+        free(planner);
+    }
+}
+
+RRNN_EXPORT planner_t *NAME(create)(const settings_t *settings, const request_t *request)
+{
+    planner_t *planner = calloc(1, sizeof *planner);
+    if (planner == NULL) {
+        return NULL;
+    }
+    const size_t keys = (size_t)NS * (size_t)request->obstacle_count + 1;
+    const size_t tips = (size_t)request->tip_goal_count + 1;
+    planner->set = *settings;
+    planner->world.count = request->obstacle_count;
+    planner->world.kind = request->kind;
+    planner->world.shape = request->shape;
+    planner->world.margin = request->margin;
+    planner->world.key = malloc(keys * sizeof(double));
+    planner->tips = malloc(tips * sizeof(tip_goal_t));
+    planner->tip_count = request->tip_goal_count;
+    planner->activity = settings->coin >= 0.0 ? settings->coin : 0.0;
+    planner->done[0] = planner->done[1] = -1;
+    memcpy(planner->lower, request->lower, sizeof planner->lower);
+    memcpy(planner->upper, request->upper, sizeof planner->upper);
+    memcpy(planner->sample_lower, request->sample_lower, sizeof planner->lower);
+    memcpy(planner->sample_upper, request->sample_upper, sizeof planner->upper);
+    rng_seed(&planner->rng, request->seed);
+    if (planner->world.key == NULL || planner->tips == NULL) {
+        NAME(free)(planner);
+        return NULL;
+    }
+    memcpy(planner->tips, request->tip_goals,
+           (size_t)request->tip_goal_count * sizeof(tip_goal_t));
+    if (!start_search(planner, request)) {
+        NAME(free)(planner);
+        return NULL;
+    }
+    return planner;
+}
+
+/* Goal postures first (once), then the search. */
+RRNN_EXPORT int32_t NAME(run)(planner_t *planner, int64_t budget, double slice)
+{
+    if (planner->tree[1].count == 0 && planner->ik_failures == 0 &&
+        !first_root(planner)) {
+        return planner->out_of_memory ? NO_MEMORY : NO_POSTURE;
+    }
+    return (int32_t)search(planner, budget, slice);
+}
+
+RRNN_EXPORT int32_t NAME(segment_free)(planner_t *planner, const double *from,
+                                  const double *to)
+{
+    return segment_free(planner, from, to);
+}
+
+/* The pair with the least gap among those within `radius` rad of motion. */
+RRNN_EXPORT int32_t NAME(closest)(planner_t *planner, const double *q, double radius,
+                             closest_t *out)
+{
+    pose_t pose;
+    pose_at(q, &pose);
+    world_reset(&planner->world);
+    const int32_t complete = world_near(&planner->world, &pose, radius);
+    *out = (closest_t){1e300, -1, -1, 0, 0};
+    for (int32_t p = 0; p < planner->world.near_count; p++) {
+        const near_t *pair = &planner->world.near[p];
+        if (pair->gap < out->gap) {
+            out->gap = pair->gap;
+            out->sphere = pair->sphere;
+            out->other = pair->other;
+            out->is_self = pair->group >= 0;
+        }
+    }
+    return complete;
+}
+
+RRNN_EXPORT const double *NAME(path)(const planner_t *planner, int32_t *count)
+{
+    *count = planner->path_count;
+    return planner->path;
+}
+
+RRNN_EXPORT const double *NAME(cells)(const planner_t *planner)
+{
+    return planner->cells;
+}
+
+/* random, heuristic, nodes of both trees, steps, goal postures, failures. */
+RRNN_EXPORT void NAME(counts)(const planner_t *planner, int64_t *out)
+{
+    out[0] = planner->random;
+    out[1] = planner->heuristic;
+    out[2] = planner->tree[0].count + planner->tree[1].count;
+    out[3] = planner->steps;
+    out[4] = planner->roots;
+    out[5] = planner->ik_failures;
+}
+
+/* Node q of a tree and its parent, for pictures; returns the node count. */
+RRNN_EXPORT int32_t NAME(node)(const planner_t *planner, int32_t side, int32_t index,
+                          double *q, int32_t *parent)
+{
+    const tree_t *tree = &planner->tree[side];
+    if (index >= 0 && index < tree->count) {
+        memcpy(q, tree->nodes[index].q, NV * sizeof(double));
+        *parent = tree->nodes[index].parent;
+    }
+    return tree->count;
+}

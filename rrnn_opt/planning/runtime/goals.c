@@ -1,0 +1,79 @@
+/* Goal postures: roots of the second tree, found by the network's own drive. */
+
+static void draw_posture(planner_t *planner, double *q)
+{
+    for (int32_t k = 0; k < NV; k++) {
+        const double low = planner->sample_lower[k], high = planner->sample_upper[k];
+        q[k] = low + (high - low) * rng_uniform(&planner->rng);
+    }
+}
+
+/* Follows the drive to a tip goal without obstacles; 1 when it arrives. */
+static int inverse_kinematics(const planner_t *planner, const tip_goal_t *tip,
+                              double *q)
+{
+    const target_t target = {.tip = tip};
+    const double radius = planner->set.ik_step;
+    pose_t pose;
+    double w[NV], lower[NV], upper[NV], u[NV];
+    for (int32_t step = 0; step < planner->set.ik_steps; step++) {
+        int arrived;
+        double z[NV] = {0};
+        pose_at(q, &pose);
+        drive(planner, q, &pose, &target, radius, w, &arrived);
+        if (arrived) {
+            return 1;
+        }
+        k_box(q, planner->lower, planner->upper, &radius, lower, upper);
+        memcpy(u, w, sizeof u);
+        hildreth_box(NV, lower, upper, z, u);
+        move(planner, q, u);
+    }
+    return 0;
+}
+
+/* Is the posture free, with every promised margin and the slack? */
+static int is_free(planner_t *planner, const double *q)
+{
+    pose_t pose;
+    const double none[NV] = {0};
+    pose_at(q, &pose);
+    world_reset(&planner->world);
+    if (!world_near(&planner->world, &pose, planner->set.max_step)) {
+        return 0;
+    }
+    return world_certify(&planner->world, none, planner->set.max_step,
+                         planner->set.slack);
+}
+
+/* One more goal posture, from `seed` (NULL: a random posture). */
+static int find_root(planner_t *planner, const double *seed)
+{
+    double q[NV];
+    if (planner->tip_count == 0 || planner->roots >= planner->set.max_roots) {
+        return 0;
+    }
+    const int32_t turn = planner->ik_failures + planner->roots;
+    const tip_goal_t *tip = planner->tips + turn % planner->tip_count;
+    if (seed != NULL) {
+        memcpy(q, seed, sizeof q);
+    } else {
+        draw_posture(planner, q);
+    }
+    if (!inverse_kinematics(planner, tip, q) || !is_free(planner, q)) {
+        planner->ik_failures++;
+        return 0;
+    }
+    planner->roots++;
+    return add_node(planner, 1, q, -1, 0, 0) >= 0;
+}
+
+/* The first goal posture, within ik_tries draws. */
+static int first_root(planner_t *planner)
+{
+    find_root(planner, planner->tree[0].nodes[0].q);
+    for (int32_t i = 0; i < planner->set.ik_tries && planner->roots == 0; i++) {
+        find_root(planner, NULL);
+    }
+    return planner->roots > 0;
+}

@@ -1,0 +1,204 @@
+/* One exploration: slide towards a target, every step proved when taken. */
+
+static double norm_of(const double *a)
+{
+    double sum = hildreth_dot(NV, a, a);
+    double root;
+    k_sqrt(&sum, &root);
+    return root;
+}
+
+static double distance_between(const double *a, const double *b)
+{
+    double difference[NV];
+    for (int32_t k = 0; k < NV; k++) {
+        difference[k] = a[k] - b[k];
+    }
+    return norm_of(difference);
+}
+
+/* Attraction w of norm at most `length`, and the way left (rad, or the size
+ * of the task error).  `arrived`: a tip target is met within its tolerance. */
+static double drive(const planner_t *planner, const double *q, const pose_t *pose,
+                    const target_t *target, double length, double *w, int *arrived)
+{
+    *arrived = 0;
+    if (target->tip == NULL) {
+        k_drive_joint(q, target->q, &length, w);
+        return distance_between(target->q, q);
+    }
+    const tip_goal_t *tip = target->tip;
+    const double share = planner->set.ik_share;
+    double error[2];
+    if (tip->has_rotation) {
+        k_drive_pose(pose->axes, pose->origins, pose->tip_position,
+                     pose->tip_rotation, tip->position, tip->rotation, &length, w,
+                     error);
+    } else {
+        k_drive_position(pose->axes, pose->origins, pose->tip_position,
+                         tip->position, &length, w, error);
+    }
+    *arrived = error[0] <= share * tip->tolerance &&
+               (!tip->has_rotation || error[1] <= share * tip->chord);
+    return error[0] + (tip->has_rotation ? error[1] : 0.0);
+}
+
+/* Adds the rows most violated at u; returns how many. */
+static int32_t violated_rows(const planner_t *planner, const double *u, int32_t *used,
+                             double *rows, double *h, int32_t count)
+{
+    const world_t *world = &planner->world;
+    int32_t added = 0;
+    while (added < planner->set.rows_per_pass && count + added < ROW_MAX) {
+        int32_t worst = -1;
+        double least = -1e-9, worst_h = 0.0;
+        for (int32_t p = 0; p < world->near_count; p++) {
+            const near_t *pair = &world->near[p];
+            double right;
+            k_offset(&pair->gap, &planner->set.steering, &pair->bound, &right);
+            const double residual = hildreth_dot(NV, pair->row, u) - right;
+            if (!used[p] && residual < least) {
+                least = residual;
+                worst = p;
+                worst_h = right;
+            }
+        }
+        if (worst < 0) {
+            break;
+        }
+        used[worst] = 1;
+        memcpy(rows + NV * (count + added), world->near[worst].row,
+               NV * sizeof(double));
+        h[count + added] = worst_h;
+        added++;
+    }
+    return added;
+}
+
+/* Step of the dual network for the wish w; returns the number of rows used. */
+static int32_t project(planner_t *planner, const double *q, const double *w,
+                       double radius, double *u)
+{
+    double rows[NV * ROW_MAX], h[ROW_MAX], lambda[ROW_MAX] = {0}, z[NV] = {0};
+    double lower[NV], upper[NV];
+    int32_t used[NEAR_MAX];
+    int32_t count = 0;
+    world_t *world = &planner->world;
+    memset(used, 0, (size_t)world->near_count * sizeof used[0]);
+    for (int32_t p = 0; p < world->near_count; p++) {
+        world->near[p].bound = near_bound(&world->near[p], w);
+    }
+    k_box(q, planner->lower, planner->upper, &radius, lower, upper);
+    memcpy(u, w, NV * sizeof(double));
+    hildreth(NV, 0, rows, h, lower, upper, 1, lambda, z, u);
+    for (int32_t pass = 0; pass < planner->set.passes; pass++) {
+        const int32_t added = violated_rows(planner, u, used, rows, h, count);
+        if (added == 0) {
+            break;
+        }
+        count += added;
+        hildreth(NV, count, rows, h, lower, upper, planner->set.sweeps, lambda, z, u);
+    }
+    const double length = norm_of(u);
+    for (int32_t k = 0; k < NV && length > radius; k++) {
+        u[k] *= radius / length;
+    }
+    return count;
+}
+
+/* A certified step towards the wish, which is halved until the proof holds.
+ * Returns the number of rows, or -1 when no step above min_step is proved. */
+static int32_t certified_step(planner_t *planner, const double *q, double *w,
+                              double *length, double *u)
+{
+    const settings_t *set = &planner->set;
+    double wish = norm_of(w);
+    for (;;) {
+        const int32_t rows = project(planner, q, w, *length, u);
+        if (world_certify(&planner->world, u, set->max_step, set->slack)) {
+            return rows;
+        }
+        wish *= 0.5;
+        *length = wish;
+        if (wish < set->min_step) {
+            return -1;
+        }
+        for (int32_t k = 0; k < NV; k++) {
+            w[k] *= 0.5;
+        }
+    }
+}
+
+static int lands_on(const double *q, const double *u, const double *target)
+{
+    for (int32_t k = 0; k < NV; k++) {
+        const double miss = q[k] + u[k] - target[k];
+        if (miss > 1e-12 || miss < -1e-12) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* q += u, kept inside the limits against rounding. */
+static void move(const planner_t *planner, double *q, const double *u)
+{
+    for (int32_t k = 0; k < NV; k++) {
+        const double next = q[k] + u[k];
+        const double capped = next > planner->upper[k] ? planner->upper[k] : next;
+        q[k] = capped < planner->lower[k] ? planner->lower[k] : capped;
+    }
+}
+
+/* Slides from `from`; waypoints go to the pool (first, count). */
+static slide_end_t slide(planner_t *planner, const double *from,
+                         const target_t *target, int32_t *first, int32_t *count)
+{
+    const settings_t *set = &planner->set;
+    double q[NV], w[NV], u[NV];
+    double length = set->max_step, mark = 1e300;
+    pose_t pose;
+    memcpy(q, from, sizeof q);
+    *first = planner->pool_count;
+    *count = 0;
+    world_reset(&planner->world);
+    for (int32_t step = 0; step < set->max_slide_steps; step++) {
+        int arrived;
+        pose_at(q, &pose);
+        const double left = drive(planner, q, &pose, target, length, w, &arrived);
+        if (arrived || left == 0.0) {
+            return REACHED;
+        }
+        if (step % set->stall_window == 0) {
+            if (left > set->stall_ratio * mark) {
+                return STALLED;
+            }
+            mark = left;
+        }
+        if (!world_near(&planner->world, &pose, set->max_step)) {
+            return EXHAUSTED;
+        }
+        world_rows(&planner->world, &pose);
+        const int32_t rows = certified_step(planner, q, w, &length, u);
+        planner->steps++;
+        if (rows < 0) {
+            return STALLED;
+        }
+        const int home = target->tip == NULL && lands_on(q, u, target->q);
+        world_advance(&planner->world, u);
+        move(planner, q, u);
+        if (home) {
+            memcpy(q, target->q, sizeof q);
+        }
+        if (!pool_push(planner, q)) {
+            return EXHAUSTED;
+        }
+        (*count)++;
+        if (home) {
+            return REACHED;
+        }
+        length *= rows > 0 ? 1.25 : 1.6;
+        length = length > set->max_step ? set->max_step : length;
+    }
+    return EXHAUSTED;
+}

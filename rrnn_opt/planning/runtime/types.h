@@ -1,0 +1,127 @@
+/* Data of the planner's runtime.
+ *
+ * NV coordinates, NJ joints, NS spheres, NP sphere pairs and NG groups of
+ * pairs are macros of the emitted section above, as are the tables t_* and
+ * the functions k_* (frames, drives, distances, rows, bounds).
+ */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define SHAPE 16
+#define NEAR_MAX 2048
+#define ROW_MAX 32
+
+typedef struct {
+    double max_step;      /* rad, largest norm of a step */
+    double min_step;      /* rad, a slide whose step falls below stalls */
+    double steering;      /* m, margin kept where there is room */
+    double slack;         /* m, gap that every step must prove */
+    double stall_ratio;   /* a window must shorten the way to this share */
+    double node_gap;      /* rad between the nodes along a slide */
+    double ik_step;       /* rad, largest step of the inverse kinematics */
+    double ik_share;      /* share of the goal tolerance that it must reach */
+    double coin;          /* in [0, 1]: fair coin; negative: the memory cell */
+    int32_t max_slide_steps;
+    int32_t stall_window;
+    int32_t sweeps;
+    int32_t rows_per_pass;
+    int32_t passes;
+    int32_t max_roots;
+    int32_t ik_steps;
+    int32_t ik_tries;     /* postures tried before the search starts */
+} settings_t;
+
+typedef struct {
+    double position[3];   /* m */
+    double rotation[9];   /* column by column */
+    double tolerance;     /* m */
+    double chord;         /* 2 sin(angle tolerance / 2) */
+    int32_t has_rotation;
+    int32_t reserved;
+} tip_goal_t;
+
+typedef struct {
+    double axes[3 * NJ], origins[3 * NJ], centers[3 * NS + 3];
+    double tip_position[3], tip_rotation[9];
+} pose_t;
+
+typedef struct {
+    int32_t sphere;       /* sphere that moves away along n */
+    int32_t other;        /* obstacle, or second sphere of a self pair */
+    int32_t group;        /* -1: obstacle; else group of the self pair */
+    double gap;           /* m, promised margin already taken off */
+    double n[3];
+    double row[NV];
+    double bound;         /* B at the wish, m */
+} near_t;
+
+typedef struct {
+    int32_t count;        /* obstacles */
+    const int32_t *kind;
+    const double *shape;
+    double margin;        /* m, promised clearance from obstacles */
+    double *key;          /* NS x count: fresh while key > way of the sphere */
+    double least[NS + 1]; /* least key of a sphere */
+    double pair_key[NP + 1];
+    double way[NS + 1];   /* m, upper bound of the way since the last reset */
+    near_t near[NEAR_MAX];
+    int32_t near_count;
+} world_t;
+
+typedef struct {
+    double q[NV];
+    double tip_error;     /* to the first tip goal, m */
+    int32_t parent;       /* -1: a root */
+    int32_t first, count; /* way from the parent, in the pool */
+    int32_t uses;         /* slides to a tip goal started here */
+} node_t;
+
+typedef struct {
+    node_t *nodes;
+    int32_t count, room;
+} tree_t;
+
+typedef struct {
+    double distance;
+    int32_t a, b;
+} pair_t;
+
+typedef struct {
+    double q[NV];         /* joint target */
+    const tip_goal_t *tip;/* not NULL: a tip target */
+} target_t;
+
+typedef enum { STALLED = 0, REACHED = 1, EXHAUSTED = 2 } slide_end_t;
+
+typedef enum {
+    PAUSED = 0,
+    SOLVED = 1,
+    BUDGET = 2,
+    NO_POSTURE = 3,
+    NO_MEMORY = 4
+} plan_status_t;
+
+typedef struct {
+    settings_t set;
+    world_t world;
+    double lower[NV], upper[NV], sample_lower[NV], sample_upper[NV];
+    rng_t rng;
+    tree_t tree[2];       /* 0: from the start, 1: from the goals */
+    double *pool;         /* waypoints, NV numbers each */
+    int32_t pool_count, pool_room;
+    pair_t *heap;
+    int32_t heap_count, heap_room;
+    tip_goal_t *tips;
+    int32_t tip_count;
+    double *cells;        /* activity before each exploration */
+    int32_t cell_room;
+    double activity;
+    int64_t random, heuristic, steps;
+    int32_t roots, turns, random_turns, ik_failures;
+    int32_t done[2];      /* nodes where the trees meet; done[1] = -1: none */
+    double *path;
+    int32_t path_count;
+    int32_t out_of_memory;
+} planner_t;
