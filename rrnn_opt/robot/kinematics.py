@@ -51,6 +51,7 @@ class Kinematics:
         """
         self.robot = robot
         self.q: ca.SX = ca.SX.sym("q", robot.nv)
+        self._poses: dict[str, tuple[ca.SX, ca.SX]] = {}
 
     @cached_property
     def _frames(self) -> list[tuple[ca.SX, ca.SX]]:
@@ -66,6 +67,20 @@ class Kinematics:
                 R = R @ _rotation(tree.axes[k], value)
             frames.append((R, p))
         return frames
+
+    @cached_property
+    def _axes(self) -> list[ca.SX]:
+        """Axis (3, 1) of every joint, in the base."""
+        pairs = zip(self._frames, self.robot.tree.axes, strict=True)
+        return [R @ ca.SX(axis) for (R, _), axis in pairs]
+
+    def _pose(self, frame: str | None) -> tuple[ca.SX, ca.SX]:
+        """Rotation and origin of a frame; built once, so that they are shared."""
+        where = self.robot.frame(frame)
+        if where.name not in self._poses:
+            pose = self._carried(self._frames, where.joint, where.placement)
+            self._poses[where.name] = pose
+        return self._poses[where.name]
 
     @staticmethod
     def _carried(
@@ -88,8 +103,7 @@ class Kinematics:
 
     def axes(self) -> ca.SX:
         """Joint axes in the base, unit columns, (3, nj)."""
-        pairs = zip(self._frames, self.robot.tree.axes, strict=True)
-        return ca.horzcat(*[R @ ca.SX(axis) for (R, _), axis in pairs])
+        return ca.horzcat(*self._axes)
 
     def pose(self, frame: str | None = None) -> ca.SX:
         """Pose of a frame in the base, (4, 4), m; the tip without a name.
@@ -97,8 +111,7 @@ class Kinematics:
         Raises:
             RobotError: there is no such frame.
         """
-        where = self.robot.frame(frame)
-        return _homogeneous(*self._carried(self._frames, where.joint, where.placement))
+        return _homogeneous(*self._pose(frame))
 
     def position(self, frame: str | None = None) -> ca.SX:
         """Origin of a frame in the base, (3, 1), m; the tip without a name.
@@ -106,8 +119,7 @@ class Kinematics:
         Raises:
             RobotError: there is no such frame.
         """
-        where = self.robot.frame(frame)
-        return self._carried(self._frames, where.joint, where.placement)[1]
+        return self._pose(frame)[1]
 
     def jacobian(self, frame: str | None = None, *, kind: str = POSITION) -> ca.SX:
         """Geometric Jacobian of a frame, in the axes of the base.
@@ -130,17 +142,14 @@ class Kinematics:
         """
         if kind not in (POSITION, POSE):
             raise ValueError(f"kind must be '{POSITION}' or '{POSE}', not '{kind}'")
-        where = self.robot.frame(frame)
-        point = self._carried(self._frames, where.joint, where.placement)[1]
-        full = self._columns(where, point)
+        full = self._columns(self.robot.frame(frame), self._pose(frame)[1])
         return full[:3, :] if kind == POSITION else full
 
     def _columns(self, where: Frame, point: ca.SX) -> ca.SX:
         tree = self.robot.tree
         out = ca.SX.zeros(6, self.robot.nv)
         for k in tree.ancestors(where.joint):
-            R, origin = self._frames[k]
-            z = R @ ca.SX(tree.axes[k])
+            z, origin = self._axes[k], self._frames[k][1]
             slides = tree.types[k] == PRISMATIC
             linear = z if slides else ca.cross(z, point - origin)
             angular = ca.SX.zeros(3, 1) if slides else z

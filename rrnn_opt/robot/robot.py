@@ -200,6 +200,12 @@ class Robot:
             for j in by_link.get(second, [])
         ]
 
+    def to_dict(self) -> dict[str, Any]:
+        """The robot as JSON-ready data: the robot block of a plan result."""
+        from rrnn_opt.robot.serial import robot_to_dict
+
+        return robot_to_dict(self)
+
     @staticmethod
     def builtin(name: str) -> Robot:
         """A built-in robot: "pa10", "panda", "raven2" or "planar3".
