@@ -153,7 +153,8 @@ class Robot:
         tip: name of the end-effector frame.
         spheres: collision spheres.
         self_pairs: pairs of links that are checked against each other.
-        cover: what the spheres stand for, {} or {"inflation_m": (least, most)}.
+        cover: what the spheres stand for: {"inflation_m": (least, most)} of
+            covers, {"missing": [...]} links with geometry but no spheres.
         source: where the numbers come from.
         licence: licence of the description.
     """
@@ -185,23 +186,20 @@ class Robot:
         for candidate in self.frames:
             if candidate.name == wanted:
                 return candidate
-        known = ", ".join(f.name for f in self.frames)
+        known = ", ".join(f.name for f in self.frames[-12:])
         raise RobotError(self.name, f"no frame '{wanted}'; it has {known}")
 
     def sphere_pairs(self) -> list[tuple[int, int]]:
         """Index pairs of spheres, one for every two spheres of a self pair."""
-        by_link: dict[str, list[int]] = {}
+        of: dict[str, list[int]] = {
+            link: [] for pair in self.self_pairs for link in pair
+        }
         for index, sphere in enumerate(self.spheres):
-            by_link.setdefault(sphere.link, []).append(index)
-        return [
-            (i, j)
-            for first, second in self.self_pairs
-            for i in by_link.get(first, [])
-            for j in by_link.get(second, [])
-        ]
+            of.setdefault(sphere.link, []).append(index)
+        return [(i, j) for a, b in self.self_pairs for i in of[a] for j in of[b]]
 
     def to_dict(self) -> dict[str, Any]:
-        """The robot as JSON-ready data: the robot block of a plan result."""
+        """The robot as JSON-ready data."""
         from rrnn_opt.robot.serial import robot_to_dict
 
         return robot_to_dict(self)
@@ -229,7 +227,7 @@ class Robot:
 
         Args:
             path: the URDF file.
-            tip: end-effector frame; without it the last leaf of the tree.
+            tip: end-effector link; without it the last leaf that a joint moves.
             spheres: collision-sphere file; without it the spheres, cylinders
                 and boxes of the collision geometry are covered by spheres.
             locked: values of joints that do not move, rad or m.

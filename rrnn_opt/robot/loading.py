@@ -1,0 +1,236 @@
+"""Robots from URDF files and pinocchio models; only here is pinocchio known.
+
+URDF has no acceleration limits, and some files lack velocity limits.  Known
+joints take theirs from ``ACCELERATION``; for all others the stated defaults
+stand, and the robot's ``source`` says for which joints.  Replace
+``robot.limits`` to use others.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rrnn_opt.errors import RobotError
+from rrnn_opt.robot.body import collision_body
+from rrnn_opt.robot.restrict import restrict
+from rrnn_opt.robot.robot import (
+    BASE,
+    CONTINUOUS,
+    PRISMATIC,
+    REVOLUTE,
+    Array,
+    Frame,
+    JointTree,
+    Limits,
+    Robot,
+    frozen,
+)
+from rrnn_opt.robot.urdf import Urdf, read_urdf
+
+VELOCITY_DEFAULT = {REVOLUTE: 1.0, CONTINUOUS: 1.0, PRISMATIC: 0.1}  # rad/s, m/s
+VELOCITY_CREDIBLE = 100.0  # rad/s or m/s; a larger figure is a placeholder
+ACCELERATION_DEFAULT = {REVOLUTE: 5.0, CONTINUOUS: 5.0, PRISMATIC: 1.0}  # rad/s2, m/s2
+ACCELERATION = {  # rad/s2; Franka's FCI limits of the Panda
+    f"panda_joint{i + 1}": value
+    for i, value in enumerate((15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0))
+}
+_stderr = threading.Lock()
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep what C++ writes to file descriptor 2 away from the user."""
+    with _stderr:
+        sys.stderr.flush()
+        try:
+            saved = os.dup(2)
+        except OSError:  # no standard error to keep quiet
+            yield
+            return
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        try:
+            os.dup2(nowhere, 2)
+            yield
+        finally:
+            os.dup2(saved, 2)
+            os.close(saved)
+            os.close(nowhere)
+
+
+def from_urdf(
+    path: str | Path,
+    *,
+    tip: str | None = None,
+    spheres: str | Path | None = None,
+    locked: Mapping[str, float] | None = None,
+) -> Robot:
+    """The joints of a URDF between its root and the link ``tip``.
+
+    All other joints stand at their ``locked`` value (default 0) and their links
+    are fixed bodies; joints that mimic a moving one follow it.
+
+    Args:
+        path: the URDF file.
+        tip: end-effector link; without it the last leaf link of the file that
+            a joint moves.
+        spheres: collision-sphere file; without it the spheres, cylinders and
+            boxes of the collision geometry are covered.
+        locked: values of joints that do not move, rad or m.
+
+    Returns:
+        The robot; ``cover["missing"]`` lists links whose collision geometry
+        has no spheres.
+
+    Raises:
+        RobotError: in one sentence, what is wrong with the file or a name.
+    """
+    urdf = read_urdf(path)
+    model = _model(urdf)
+    whole = _whole(model, urdf.path)
+    held = {name: float(value) for name, value in (locked or {}).items()}
+    end = _default_tip(whole, urdf) if tip is None else tip
+    robot = restrict(whole, tip=end, locked=held, mimic=urdf.mimic)
+    source = f"{urdf.path}{_assumed(model, robot)}"
+    named = replace(robot, name=urdf.name, source=source)
+    return collision_body(named, urdf, spheres)
+
+
+def from_pinocchio(model: Any, *, tip: str | None = None) -> Robot:
+    """All joints of a ``pin.Model`` as a tree; no attribute is hung on it.
+
+    Args:
+        model: the model; without free-flyer, its joints of one degree of freedom.
+        tip: frame name; the model's last frame without it.
+
+    Returns:
+        The robot, without spheres.
+
+    Raises:
+        RobotError: a joint is of another type, or there is no such frame.
+    """
+    whole = _whole(model, str(model.name))
+    if tip is not None:
+        whole = replace(whole, tip=whole.frame(tip).name)
+    return replace(whole, source=f"pinocchio model{_assumed(model, whole)}")
+
+
+def _default_tip(whole: Robot, urdf: Urdf) -> str:
+    carried = [link for link in urdf.leaves if whole.frame(link).joint != BASE]
+    return carried[-1] if carried else urdf.leaves[-1]
+
+
+def _model(urdf: Urdf) -> Any:
+    import pinocchio as pin
+
+    with _quiet():
+        try:
+            return pin.buildModelFromXML(urdf.text)
+        except (ValueError, RuntimeError) as error:
+            first = str(error).strip().splitlines()
+            reason = first[0] if first else "no reason given"
+            raise RobotError(urdf.path, f"pinocchio refuses it: {reason}") from None
+
+
+def _whole(model: Any, source: str) -> Robot:
+    """Every joint of a model as a coordinate of its own."""
+    joints = [_joint(model, k, source) for k in range(1, model.njoints)]
+    types = tuple(kind for kind, _ in joints)
+    n, placements = (
+        len(types),
+        [model.jointPlacements[k + 1] for k in range(len(types))],
+    )
+    own = np.arange(n, dtype=np.int64)
+    frames = tuple(_frames(model))
+    poses = [pose.homogeneous for pose in placements]
+    if not all(np.all(np.isfinite(pose)) for pose in poses):
+        raise RobotError(source, "a joint's origin is not finite")
+    return Robot(
+        name=str(model.name),
+        joint_names=tuple(model.names)[1:],
+        tree=JointTree(
+            parents=np.array([p - 1 for p in list(model.parents)[1:]], dtype=np.int64),
+            types=types,
+            placements=frozen(poses if n else np.zeros((0, 4, 4)), (n, 4, 4), "poses"),
+            axes=frozen([a for _, a in joints] or np.zeros((0, 3)), (n, 3), "axes"),
+            source=own,
+            multiplier=frozen(np.ones(n), (n,), "multiplier"),
+            offset=frozen(np.zeros(n), (n,), "offset"),
+        ),
+        limits=_limits(model, types),
+        frames=frames,
+        tip=frames[-1].name if frames else "",
+    )
+
+
+def _joint(model: Any, k: int, source: str) -> tuple[str, Array]:
+    """Type and unit axis of a model's joint, from its motion subspace."""
+    joint = model.joints[k]
+    if joint.nv == 1 and "Mimic" not in joint.shortname():
+        data = joint.createData()
+        joint.calc(data, np.eye(joint.nq)[0])
+        subspace = np.asarray(data.S, dtype=float).reshape(6)
+        linear, angular = subspace[:3], subspace[3:]
+        if not np.any(linear):
+            return (CONTINUOUS if joint.nq == 2 else REVOLUTE), angular
+        if not np.any(angular):
+            return PRISMATIC, linear
+    name, kind = model.names[k], joint.shortname()
+    message = f"joint '{name}' is a {kind}; only revolute, continuous and prismatic"
+    raise RobotError(source, f"{message} joints are supported")
+
+
+def _frames(model: Any) -> Iterator[Frame]:
+    import pinocchio as pin
+
+    seen: set[str] = set()
+    for frame in model.frames:
+        named = frame.type in (pin.FrameType.BODY, pin.FrameType.OP_FRAME)
+        if named and frame.name not in seen:
+            seen.add(frame.name)
+            pose = frozen(frame.placement.homogeneous, (4, 4), frame.name)
+            carrier = int(frame.parentJoint) - 1
+            yield Frame(frame.name, carrier if carrier >= 0 else BASE, pose)
+
+
+def _limits(model: Any, types: tuple[str, ...]) -> Limits:
+    n = len(types)
+    lower, upper = np.full(n, -np.inf), np.full(n, np.inf)
+    velocity, acceleration = np.zeros(n), np.zeros(n)
+    for i, kind in enumerate(types):
+        joint = model.joints[i + 1]
+        if kind != CONTINUOUS:
+            lower[i] = model.lowerPositionLimit[joint.idx_q]
+            upper[i] = model.upperPositionLimit[joint.idx_q]
+        given = float(model.velocityLimit[joint.idx_v])
+        velocity[i] = given if _credible(given) else VELOCITY_DEFAULT[kind]
+        known = ACCELERATION.get(model.names[i + 1])
+        acceleration[i] = ACCELERATION_DEFAULT[kind] if known is None else known
+    bounds = (lower, upper, velocity, acceleration)
+    return Limits(*(frozen(bound, (n,), "limits") for bound in bounds))
+
+
+def _credible(velocity: float) -> bool:
+    return 0.0 < velocity <= VELOCITY_CREDIBLE
+
+
+def _assumed(model: Any, robot: Robot) -> str:
+    """Which limits of a robot's joints are defaults of ours, as a sentence."""
+    indices = {name: model.getJointId(name) for name in robot.joint_names}
+    speeds = {n: model.velocityLimit[model.joints[i].idx_v] for n, i in indices.items()}
+    slow = [name for name, speed in speeds.items() if not _credible(float(speed))]
+    rates = [name for name in indices if name not in ACCELERATION]
+    parts = [
+        f"velocity limit 1 rad/s (0.1 m/s) assumed for {', '.join(slow)}",
+        f"acceleration limit 5 rad/s2 (1 m/s2) assumed for {', '.join(rates)}",
+    ]
+    stated = [part for part, names in zip(parts, (slow, rates), strict=True) if names]
+    return "".join(f"; {part}" for part in stated)

@@ -1,0 +1,229 @@
+"""What we read from a URDF ourselves: structure, mimic joints, primitives.
+
+The file is checked before any parser sees it (no DOCTYPE, no ENTITY, UTF-8)
+and its tree before pinocchio does, so that each fault gets its own sentence.
+"""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from rrnn_opt.errors import RobotError
+
+LARGEST = 32 * 1024 * 1024  # bytes
+KINDS = ("revolute", "continuous", "prismatic", "fixed")
+SIZES = {"sphere": ("radius",), "cylinder": ("radius", "length"), "box": ("size",)}
+
+
+@dataclass(frozen=True)
+class Mimic:
+    """Value of a joint that follows another: multiplier * source + offset."""
+
+    source: str
+    multiplier: float
+    offset: float
+
+
+@dataclass(frozen=True)
+class Primitive:
+    """A collision geometry of a link.
+
+    Attributes:
+        kind: "sphere", "cylinder", "box", or "mesh" for all that is not one.
+        size: radius; radius and length; three edges; nothing for a mesh; m.
+        xyz: origin in the link's frame, m.
+        rpy: roll, pitch and yaw, rad.
+    """
+
+    kind: str
+    size: tuple[float, ...]
+    xyz: tuple[float, ...]
+    rpy: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Urdf:
+    """A checked URDF.
+
+    Attributes:
+        path: where it was read.
+        text: its XML.
+        name: the robot's name.
+        links: link names, in the file's order.
+        joints: (name, parent link, child link), in the file's order.
+        mimic: coupling of the joints that follow another.
+        collisions: collision geometry of the links that have any.
+    """
+
+    path: str
+    text: str
+    name: str
+    links: tuple[str, ...]
+    joints: tuple[tuple[str, str, str], ...]
+    mimic: dict[str, Mimic]
+    collisions: dict[str, tuple[Primitive, ...]]
+
+    @property
+    def leaves(self) -> list[str]:
+        """The links that carry no other link, in the file's order."""
+        parents = {parent for _, parent, _ in self.joints}
+        return [link for link in self.links if link not in parents]
+
+
+def read_urdf(path: str | Path) -> Urdf:
+    """Read a URDF and check its tree.
+
+    Args:
+        path: the file.
+
+    Returns:
+        What it says.
+
+    Raises:
+        RobotError: in one sentence, what is wrong with it.
+    """
+    where = str(path)
+    text = _safe_text(Path(path), where)
+    try:
+        root = ET.fromstring(text)
+    except ET.ParseError as error:
+        raise RobotError(where, f"not well-formed XML: {error}") from None
+    if root.tag != "robot":
+        raise RobotError(where, f"not a URDF: its root is <{root.tag}>, not <robot>")
+    if any("xacro" in str(element.tag) for element in root):
+        raise RobotError(where, "this is a xacro file; expand it with xacro first")
+    try:
+        return _urdf(root, text, where)
+    except (KeyError, ValueError, AttributeError) as error:
+        raise RobotError(
+            where, f"an element is missing or malformed: {error}"
+        ) from None
+
+
+def _safe_text(path: Path, where: str) -> str:
+    try:
+        size = path.stat().st_size
+        raw = path.read_bytes() if size <= LARGEST else b""
+    except OSError as error:
+        raise RobotError(where, f"cannot be read: {error.strerror}") from None
+    if size > LARGEST:
+        raise RobotError(where, f"larger than {LARGEST // 2**20} MiB; not a URDF")
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise RobotError(where, "not UTF-8 text; save it as UTF-8") from None
+    upper = text.upper()
+    if "<!DOCTYPE" in upper or "<!ENTITY" in upper:
+        raise RobotError(where, "has a DOCTYPE or ENTITY, which a URDF needs not")
+    return text
+
+
+def _urdf(root: ET.Element, text: str, where: str) -> Urdf:
+    joints = tuple(_joints(root, where))
+    links = tuple(link.attrib["name"] for link in root.findall("link"))
+    _check_tree(links, joints, where)
+    return Urdf(
+        path=where,
+        text=text,
+        name=root.get("name", Path(where).stem),
+        links=links,
+        joints=joints,
+        mimic=dict(_mimics(root, {name for name, _, _ in joints}, where)),
+        collisions=_collisions(root),
+    )
+
+
+def _joints(root: ET.Element, where: str) -> Iterator[tuple[str, str, str]]:
+    for joint in root.findall("joint"):
+        name, kind = joint.attrib["name"], joint.attrib["type"]
+        if kind not in KINDS:
+            known = ", ".join(KINDS)
+            message = f"joint '{name}' is {kind}; only {known} joints are supported"
+            raise RobotError(where, message)
+        ends = (joint.find("parent"), joint.find("child"))
+        parent, child = (end.attrib["link"] for end in ends if end is not None)
+        yield name, parent, child
+
+
+def _check_tree(
+    links: tuple[str, ...], joints: tuple[tuple[str, str, str], ...], where: str
+) -> None:
+    """One root, every link reached once, every name used once."""
+    if not links:
+        raise RobotError(where, "has no links")
+    names = [name for name, _, _ in joints]
+    for what, given in (("link", list(links)), ("joint", names)):
+        twice = sorted({name for name in given if given.count(name) > 1})
+        if twice:
+            raise RobotError(where, f"two {what}s are called '{twice[0]}'")
+    parent_of: dict[str, str] = {}
+    for name, parent, child in joints:
+        if not {parent, child} <= set(links):
+            raise RobotError(where, f"joint '{name}' names a link that is not there")
+        if child in parent_of:
+            raise RobotError(where, f"link '{child}' has two parents; not a tree")
+        parent_of[child] = parent
+    roots = [link for link in links if link not in parent_of]
+    if len(roots) > 1:
+        raise RobotError(where, f"has several roots: {', '.join(roots[:4])}")
+    if not roots or not _all_reach(roots[0], parent_of):
+        raise RobotError(where, "its joints form a cycle; a tree is needed")
+
+
+def _all_reach(root: str, parent_of: dict[str, str]) -> bool:
+    children: dict[str, list[str]] = {}
+    for child, parent in parent_of.items():
+        children.setdefault(parent, []).append(child)
+    seen, waiting = 0, [root]
+    while waiting:
+        seen += 1
+        waiting.extend(children.get(waiting.pop(), []))
+    return seen == len(parent_of) + 1
+
+
+def _mimics(
+    root: ET.Element, names: set[str], where: str
+) -> Iterator[tuple[str, Mimic]]:
+    for joint in root.findall("joint"):
+        mimic = joint.find("mimic")
+        if mimic is None or joint.attrib["type"] == "fixed":
+            continue
+        name, source = joint.attrib["name"], mimic.attrib["joint"]
+        if source not in names:
+            raise RobotError(where, f"joint '{name}' mimics '{source}', not there")
+        multiplier = float(mimic.get("multiplier", "1"))
+        yield name, Mimic(source, multiplier, float(mimic.get("offset", "0")))
+
+
+def _collisions(root: ET.Element) -> dict[str, tuple[Primitive, ...]]:
+    shapes = {
+        link.attrib["name"]: tuple(map(_primitive, link.findall("collision")))
+        for link in root.findall("link")
+    }
+    return {link: found for link, found in shapes.items() if found}
+
+
+def _primitive(collision: ET.Element) -> Primitive:
+    origin = collision.find("origin")
+    attributes = {} if origin is None else origin.attrib
+    xyz = _floats(attributes.get("xyz", "0 0 0"), 3)
+    rpy = _floats(attributes.get("rpy", "0 0 0"), 3)
+    for kind, fields in SIZES.items():
+        shape = collision.find(f"geometry/{kind}")
+        if shape is not None:
+            text = " ".join(shape.attrib[field] for field in fields)
+            size = _floats(text, 3 if kind == "box" else len(fields))
+            if min(size) <= 0.0:
+                raise ValueError(f"a {kind} needs positive sizes, not '{text}'")
+            return Primitive(kind, size, xyz, rpy)
+    return Primitive("mesh", (), xyz, rpy)
+
+
+def _floats(text: str, count: int) -> tuple[float, ...]:
+    values = tuple(float(word) for word in text.split())
+    if len(values) != count or any(not abs(v) < float("inf") for v in values):
+        raise ValueError(f"'{text}' must be {count} finite numbers")
+    return values
