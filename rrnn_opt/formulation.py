@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import cast
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -21,7 +21,8 @@ from rrnn_opt.symbolic.symbol import (
 )
 from rrnn_opt.symbolic.tape import fingerprint
 
-_ABSENT = cast(ca.SX, None)  # only while it is being built; SX afterwards
+Part = Any
+"""An SX column; None may be given for a part that is absent, and becomes SX."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,10 +58,10 @@ class Formulation:
     decision: Symbol
     parameters: tuple[Symbol, ...]
     cost: ca.SX
-    equalities: ca.SX = _ABSENT
-    inequalities: ca.SX = _ABSENT
-    lower: ca.SX = _ABSENT
-    upper: ca.SX = _ABSENT
+    equalities: Part = None
+    inequalities: Part = None
+    lower: Part = None
+    upper: Part = None
     citation: str = ""
     notes: str = ""
 
@@ -125,7 +126,9 @@ class Formulation:
         parts = ["cost", "equalities", "inequalities", "lower", "upper"]
         outputs = [getattr(self, part) for part in parts]
         names = [s.name for s in symbols]
-        return ca.Function(self.name, [s.sx for s in symbols], outputs, names, parts)
+        inputs = [s.sx for s in symbols]
+        may = {"allow_duplicate_io_names": True}
+        return ca.Function(self.name, inputs, outputs, names, parts, may)
 
     @cached_property
     def fingerprint(self) -> str:

@@ -118,16 +118,18 @@ class QP:
         )
 
     def functions(self) -> dict[str, ca.Function]:
-        """``{"qp": f}`` with f from the parameters to P, q, A, b, G, h, lb, ub."""
+        """``{"qp": f}`` with f from the parameters to qp_P, qp_q, .., qp_ub.
+
+        The prefix keeps them apart from parameters; joint positions are ``q``.
+        """
         return {"qp": self._function}
 
     @cached_property
     def _function(self) -> ca.Function:
         inputs = [s.sx for s in self.parameters]
         outputs = [getattr(self, field) for field in FIELDS]
-        return ca.Function(
-            "qp", inputs, outputs, [s.name for s in self.parameters], [*FIELDS]
-        )
+        names = [s.name for s in self.parameters]
+        return ca.Function("qp", inputs, outputs, names, [f"qp_{f}" for f in FIELDS])
 
     def at(self, **parameters: ArrayLike) -> qpsolvers.Problem:
         """The programme for given parameters.

@@ -1,0 +1,102 @@
+"""Lyapunov functions and their derivative along dynamics, symbolic."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import casadi as ca
+
+from rrnn_opt.dynamics import NeuralDynamics
+from rrnn_opt.errors import RrnnError
+from rrnn_opt.symbolic.symbol import (
+    Symbol,
+    dense,
+    require_declared,
+    require_names,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class LyapunovFunction:
+    """``V(x, p)`` over a state and parameters.
+
+    Write V in the symbols of the dynamics: ``dynamics.state.sx``, or the
+    decision and multipliers that it stacks, and ``dynamics.parameters``.
+
+    Attributes:
+        value: V, (1, 1).
+        state: x.
+        parameters: p; what V holds fixed, or what moves at a given rate.
+
+    Raises:
+        ShapeError: V is not a scalar.
+        RrnnError: V depends on an undeclared symbol, or a name stands twice.
+    """
+
+    value: ca.SX
+    state: Symbol
+    parameters: tuple[Symbol, ...] = ()
+
+    def __post_init__(self) -> None:
+        require_names((self.state, *self.parameters), "Lyapunov function")
+        object.__setattr__(self, "value", dense(self.value, (1, 1), "V"))
+        require_declared(self.value, (self.state, *self.parameters), "V")
+
+    def derivative(
+        self,
+        dynamics: NeuralDynamics,
+        *,
+        parameter_rates: Mapping[str, ca.SX] | None = None,
+    ) -> ca.SX:
+        """``V' = dV/dx f(x, p) + dV/dp p'`` along the dynamics.
+
+        Nothing is assumed about parameters silently: those without a rate
+        stand still.  A moving Jacobian is, for instance, V in ``q`` with
+        ``parameter_rates={"q": dynamics.output}``; for a frozen one give V the
+        Jacobian, or leave the rate out.
+
+        Args:
+            dynamics: f, over the same state symbol.
+            parameter_rates: p' by the parameter's name, of its shape; SX of
+                the state and the parameters.
+
+        Returns:
+            V', (1, 1).
+
+        Raises:
+            RrnnError: the state is another symbol, a rate belongs to no
+                parameter of V, or a rate depends on an undeclared symbol.
+            ShapeError: a rate has the wrong shape.
+        """
+        if not _same(self.state, dynamics.state):
+            raise RrnnError(
+                f"V is a function of '{self.state.name}' and the dynamics have the "
+                f"state '{dynamics.state.name}'; write V in dynamics.state.sx"
+            )
+        rates = dict(parameter_rates or {})
+        value = _along(self.value, self.state, dynamics.derivative)
+        every = {s.name: s for s in (*self.parameters, *dynamics.parameters)}
+        for symbol in self.parameters:
+            if symbol.name in rates:
+                name = f"rate of '{symbol.name}'"
+                rate = dense(rates.pop(symbol.name), symbol.shape, name)
+                require_declared(rate, (self.state, *every.values()), name)
+                value = value + _along(self.value, symbol, rate)
+        if rates:
+            raise RrnnError(f"V has no parameter {', '.join(map(repr, rates))}")
+        return ca.densify(value)
+
+
+def _along(value: ca.SX, symbol: Symbol, rate: ca.SX) -> ca.SX:
+    """Directional derivative of a scalar."""
+    gradient = ca.gradient(value, symbol.sx)
+    return ca.dot(ca.vec(gradient), ca.vec(rate))
+
+
+def _same(first: Symbol, second: Symbol) -> bool:
+    """Whether two symbols stand for the same elements in the same order."""
+    return first.shape == second.shape and all(
+        a.element_hash() == b.element_hash()
+        for a, b in zip(ca.vertsplit(first.sx), ca.vertsplit(second.sx), strict=True)
+    )
