@@ -81,7 +81,7 @@ def step_box(
 
 
 def joint_attraction(q: ca.SX, target: ca.SX, length: ca.SX) -> ca.SX:
-    """w = target - q, cut at the norm ``length`` (rad); (nv, 1)."""
+    """Attraction w = target - q, cut at the norm ``length`` (rad); (nv, 1)."""
     difference = target - q
     norm = ca.sqrt(ca.dot(difference, difference))
     return difference * ca.fmin(1, length / ca.fmax(norm, 1e-30))
@@ -90,7 +90,7 @@ def joint_attraction(q: ca.SX, target: ca.SX, length: ca.SX) -> ca.SX:
 def tip_attraction(
     jacobian: ca.SX, error: ca.SX, length: ca.SX, damping: float = 1e-3
 ) -> ca.SX:
-    """w = J' (J J' + damping I)^-1 e, cut at the norm ``length`` (rad).
+    """Attraction w = J' (J J' + damping I)^-1 e, cut at the norm ``length`` (rad).
 
     Args:
         jacobian: of the task, (m, nv).
@@ -153,8 +153,8 @@ def _rows(
     gaps: Symbol,
     bounds: Symbol,
     margin: Symbol,
-) -> ca.SX | None:
-    """Contact rows as ``offset - n'J u <= 0``; None without contacts."""
+) -> ca.SX:
+    """Contact rows as ``offset - n'J u <= 0``, (k, 1)."""
     robot = kin.robot
     axes, origins, centres = kin.axes(), kin.origins(), kin.sphere_centres()
     rows = []
@@ -164,4 +164,4 @@ def _rows(
         centre, n = centres[:, sphere], normals.sx[:, i]
         gradient = row(robot.tree, axes, origins, mask, centre, n)
         rows.append(offset(gaps.sx[i], margin.sx, bounds.sx[i]) - gradient @ u.sx)
-    return ca.vertcat(*rows) if rows else None
+    return ca.vertcat(*rows) if rows else ca.SX(0, 1)

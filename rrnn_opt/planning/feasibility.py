@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from rrnn_opt.planning.goals import JointGoal, TipGoal
 from rrnn_opt.planning.problem import Problem
-from rrnn_opt.planning.runtime_library import Contact, Search
+from rrnn_opt.planning.runtime_library import Search
+from rrnn_opt.planning.structs import Contact
 from rrnn_opt.robot.bound import reach_ball
 from rrnn_opt.robot.robot import CONTINUOUS, Robot
 
@@ -41,7 +42,9 @@ def nearest_turn(robot: Robot, q: Array, reference: Array) -> Array:
     return result
 
 
-def describe(problem: Problem, contact: Contact, q: Array) -> tuple[str, dict[str, Any]]:
+def describe(
+    problem: Problem, contact: Contact, q: Array
+) -> tuple[str, dict[str, Any]]:
     """The pair of a contact in words, and as data."""
     spheres = problem.robot.spheres
     link = spheres[contact.sphere].link

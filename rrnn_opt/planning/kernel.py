@@ -12,7 +12,13 @@ import pathlib
 import casadi as ca
 
 from rrnn_opt import emit
-from rrnn_opt.formulations import slide
+from rrnn_opt.formulations.slide import (
+    joint_attraction,
+    offset,
+    row,
+    step_box,
+    tip_attraction,
+)
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.tables import tables
 from rrnn_opt.robot import Kinematics, Robot
@@ -74,18 +80,18 @@ def row_functions(robot: Robot) -> list[ca.Function]:
     gap, margin, bound, radius = (
         ca.SX.sym(name) for name in ("gap", "margin", "bound", "radius")
     )
-    lower, upper = slide.step_box(q, low, high, radius)
+    lower, upper = step_box(q, low, high, radius)
     frame = {"axes": axes, "origins": origins}
     return [
         _function(
             "k_row",
             {**frame, "mask": mask, "point": point, "n": n},
-            {"row": slide.row(tree, axes, origins, mask, point, n)},
+            {"row": row(tree, axes, origins, mask, point, n)},
         ),
         _function(
             "k_offset",
             {"gap": gap, "margin": margin, "bound": bound},
-            {"right": slide.offset(gap, margin, bound)},
+            {"right": offset(gap, margin, bound)},
         ),
         _function(
             "k_box",
@@ -119,7 +125,7 @@ def _tip_jacobian(
     mask = ca.SX([float(k in moving) for k in range(tree.nj)])
     eye = ca.SX.eye(3)
     return ca.vertcat(
-        *(slide.row(tree, axes, origins, mask, tip, eye[:, i]) for i in range(3))
+        *(row(tree, axes, origins, mask, tip, eye[:, i]) for i in range(3))
     )
 
 
@@ -147,12 +153,14 @@ def drive_functions(robot: Robot) -> list[ca.Function]:
     way = ca.sqrt(ca.sumsqr(miss))
     chord = ca.sqrt(ca.sumsqr(turn - wanted) / 2)
     frame = {"axes": axes, "origins": origins, "tip_position": tip}
-    posture = slide.joint_attraction(q, target, length)
-    to_point = slide.tip_attraction(linear, miss, length)
-    to_pose = slide.tip_attraction(full, ca.vertcat(miss, twist), length)
+    to_posture = joint_attraction(q, target, length)
+    to_point = tip_attraction(linear, miss, length)
+    to_pose = tip_attraction(full, ca.vertcat(miss, twist), length)
     return [
         _function(
-            "k_drive_joint", {"q": q, "target": target, "length": length}, {"w": posture}
+            "k_drive_joint",
+            {"q": q, "target": target, "length": length},
+            {"w": to_posture},
         ),
         _function(
             "k_drive_position",

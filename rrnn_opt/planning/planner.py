@@ -54,7 +54,7 @@ class _Run:
     path: Array | None = None
     trajectory: Trajectory | None = None
     certificate: dict[str, Any] | None = None
-    times: dict[str, float] = field(default_factory=dict)
+    times: dict[str, Any] = field(default_factory=dict)
     trees: Any = None
 
     def result(self, status: str, message: str, **more: Any) -> PlanResult:
@@ -201,9 +201,7 @@ def _why(status: str, run: _Run, goals: OpenGoals) -> str:
     return f"no path found before the {what} were spent; this proves nothing"
 
 
-def _delivered(
-    run: _Run, search: Search, on_progress: Progress | None
-) -> PlanResult:
+def _delivered(run: _Run, search: Search, on_progress: Progress | None) -> PlanResult:
     """Shorten, retime and certify the path found; the path is kept anyway."""
     raw = search.path()
     run.path = raw

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rrnn_opt.planning.goals import TipGoal
 from rrnn_opt.planning.problem import Problem
-from rrnn_opt.planning.runtime_library import Request, TipTarget
+from rrnn_opt.planning.structs import Request, TipTarget
 from rrnn_opt.scene.distance import PRIMITIVES
 from rrnn_opt.scene.pose import matrix_from_quaternion
 
@@ -48,7 +48,8 @@ def tip_target(goal: TipGoal) -> TipTarget:
 
 def _seed(seed: int) -> NDArray[np.uint64]:
     """128 bits of the caller's seed."""
-    return np.random.SeedSequence(seed).generate_state(2, np.uint64)
+    words = np.random.SeedSequence(seed).generate_state(2, np.uint64)
+    return words.astype(np.uint64)
 
 
 def pack(

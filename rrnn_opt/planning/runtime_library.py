@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes as ct
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -15,125 +14,19 @@ from rrnn_opt.errors import RrnnError
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.kernel import PREFIX, source
 from rrnn_opt.planning.settings import RandomRnn
+from rrnn_opt.planning.structs import (
+    Closest,
+    Contact,
+    NearPair,
+    Request,
+    SearchCounts,
+    Settings,
+    settings_struct,
+)
 from rrnn_opt.robot import Robot
 
 Array = NDArray[np.float64]
 STATUS = {0: "paused", 1: "solved", 2: "budget_exhausted", 3: "no_goal_posture"}
-
-
-class Settings(ct.Structure):
-    """``settings_t`` of runtime/types.h."""
-
-    _fields_ = (
-        *(
-            (name, ct.c_double)
-            for name in (
-                "max_step",
-                "min_step",
-                "steering",
-                "slack",
-                "stall_ratio",
-                "node_gap",
-                "ik_step",
-                "ik_share",
-                "coin",
-            )
-        ),
-        *(
-            (name, ct.c_int32)
-            for name in (
-                "max_slide_steps",
-                "stall_window",
-                "sweeps",
-                "rows_per_pass",
-                "passes",
-                "max_roots",
-                "ik_steps",
-                "ik_tries",
-            )
-        ),
-    )
-
-
-class TipTarget(ct.Structure):
-    """``tip_goal_t``."""
-
-    _fields_ = (
-        ("position", ct.c_double * 3),
-        ("rotation", ct.c_double * 9),
-        ("tolerance", ct.c_double),
-        ("chord", ct.c_double),
-        ("has_rotation", ct.c_int32),
-        ("reserved", ct.c_int32),
-    )
-
-
-class Request(ct.Structure):
-    """``request_t``."""
-
-    _fields_ = (
-        *(
-            (name, ct.c_void_p)
-            for name in (
-                "lower",
-                "upper",
-                "sample_lower",
-                "sample_upper",
-                "start",
-                "kind",
-                "shape",
-                "joint_goals",
-                "tip_goals",
-            )
-        ),
-        ("margin", ct.c_double),
-        ("seed", ct.c_uint64 * 2),
-        ("obstacle_count", ct.c_int32),
-        ("joint_goal_count", ct.c_int32),
-        ("tip_goal_count", ct.c_int32),
-        ("reserved", ct.c_int32),
-    )
-
-
-class Closest(ct.Structure):
-    """``closest_t``."""
-
-    _fields_ = (
-        ("gap", ct.c_double),
-        ("sphere", ct.c_int32),
-        ("other", ct.c_int32),
-        ("is_self", ct.c_int32),
-        ("reserved", ct.c_int32),
-    )
-
-
-@dataclass(frozen=True)
-class Contact:
-    """The closest pair at a posture.
-
-    Attributes:
-        gap: clearance less the promised margin, m.
-        sphere: index of the robot's sphere.
-        other: index of the obstacle, or of the second sphere.
-        is_self: the pair is a self pair.
-    """
-
-    gap: float
-    sphere: int
-    other: int
-    is_self: bool
-
-
-@dataclass(frozen=True)
-class SearchCounts:
-    """What the search did: rollouts, nodes, steps and goal postures."""
-
-    random: int
-    heuristic: int
-    nodes: int
-    rollout_steps: int
-    goal_postures: int
-    ik_failures: int
 
 
 class Runtime:
@@ -160,29 +53,6 @@ class Runtime:
     def free(self) -> Any:
         """``free(search)``."""
         return self.function("free", None, ct.c_void_p)
-
-
-def settings_struct(settings: RandomRnn) -> Settings:
-    """``settings_t`` of a planner's settings."""
-    return Settings(
-        max_step=settings.max_step,
-        min_step=settings.min_step,
-        steering=settings.steering_margin,
-        slack=settings.slack,
-        stall_ratio=settings.stall_ratio,
-        node_gap=settings.node_gap,
-        ik_step=settings.ik_step,
-        ik_share=settings.ik_share,
-        coin=-1.0 if settings.coin is None else settings.coin,
-        max_slide_steps=settings.max_slide_steps,
-        stall_window=settings.stall_window,
-        sweeps=settings.sweeps,
-        rows_per_pass=settings.rows_per_pass,
-        passes=settings.passes,
-        max_roots=settings.max_roots,
-        ik_steps=settings.ik_steps,
-        ik_tries=settings.ik_tries,
-    )
 
 
 class Search:
@@ -241,6 +111,21 @@ class Search:
         if out.sphere < 0:
             return None
         return Contact(out.gap, out.sphere, out.other, bool(out.is_self))
+
+    def step(self, q: Array, wish: Array) -> tuple[Array, list[NearPair]]:
+        """One projected step at ``q`` for the wish, and the pairs it saw."""
+        u = np.zeros(self._nv)
+        q, wish = (np.ascontiguousarray(v, dtype=np.float64) for v in (q, wish))
+        pointers = (q.ctypes.data, wish.ctypes.data, u.ctypes.data)
+        count = self._call("step", ct.c_int32, (ct.c_void_p,) * 3, *pointers)
+        return u, [self._near(i) for i in range(count)]
+
+    def _near(self, index: int) -> NearPair:
+        who, numbers = np.zeros(3, np.int32), np.zeros(5)
+        types = (ct.c_int32, ct.c_void_p, ct.c_void_p)
+        self._call("near", None, types, index, who.ctypes.data, numbers.ctypes.data)
+        gap, bound = float(numbers[0]), float(numbers[4])
+        return NearPair(int(who[0]), int(who[1]), int(who[2]), gap, numbers[1:4], bound)
 
     def path(self) -> Array:
         """Waypoints of the path found, (N, nv)."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from rrnn_opt.networks import MemoryCell
 
@@ -33,7 +33,7 @@ class RandomRnn:
         ik_tries: runs before the search starts.
     """
 
-    cell: MemoryCell = MemoryCell()
+    cell: MemoryCell = field(default_factory=MemoryCell)
     coin: float | None = None
     max_step: float = 0.10
     min_step: float = 1e-3

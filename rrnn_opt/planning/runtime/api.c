@@ -120,6 +120,34 @@ RRNN_EXPORT int32_t NAME(closest)(planner_t *planner, const double *q, double ra
     return complete;
 }
 
+/* One projected step at q for the wish w; returns the number of near pairs. */
+RRNN_EXPORT int32_t NAME(step)(planner_t *planner, const double *q, const double *w,
+                               double *u)
+{
+    pose_t pose;
+    pose_at(q, &pose);
+    world_reset(&planner->world);
+    if (!world_near(&planner->world, &pose, planner->set.max_step)) {
+        return -1;
+    }
+    world_rows(&planner->world, &pose);
+    project(planner, q, w, planner->set.max_step, u);
+    return planner->world.near_count;
+}
+
+/* Near pair `index` of the last step: sphere, other, group; gap, n, bound. */
+RRNN_EXPORT void NAME(near)(const planner_t *planner, int32_t index, int32_t *who,
+                            double *numbers)
+{
+    const near_t *pair = &planner->world.near[index];
+    who[0] = pair->sphere;
+    who[1] = pair->other;
+    who[2] = pair->group;
+    numbers[0] = pair->gap;
+    memcpy(numbers + 1, pair->n, 3 * sizeof(double));
+    numbers[4] = pair->bound;
+}
+
 RRNN_EXPORT const double *NAME(path)(const planner_t *planner, int32_t *count)
 {
     *count = planner->path_count;
