@@ -1,0 +1,88 @@
+"""Writing a claim down as plain data, for the checker."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from rrnn_opt.check.claim_certificate import KIND
+from rrnn_opt.claim import Claim, Range
+from rrnn_opt.errors import RrnnError
+from rrnn_opt.symbolic.tape import Instruction, Port, Tape
+
+Witness = Mapping[str, Sequence[Fraction | int | float]]
+
+
+def certificate_document(
+    claim: Claim, method: str, *, witness: Witness | None = None
+) -> dict[str, Any]:
+    """The document that asks the checker to settle a claim by one method.
+
+    Args:
+        claim: the claim.
+        method: "identity", "terms" or "replay".
+        witness: for "replay": numbers by variable, column by column; floats
+            stand for the exact rational numbers that they are.
+
+    Raises:
+        UnsupportedOperationError: the graph holds an unknown operation.
+        RrnnError: a number of the witness is not finite.
+    """
+    exact = None if witness is None else exact_point(witness)
+    return {
+        "kind": KIND,
+        "schema": 1,
+        "claim": claim_block(claim),
+        "method": method,
+        "witness": exact,
+    }
+
+
+def claim_block(claim: Claim) -> dict[str, Any]:
+    """The claim as plain data."""
+    tape = Tape.of(claim.function())
+    return {
+        "id": claim.id,
+        "source": claim.source,
+        "statement": claim.statement,
+        "fingerprint": claim.fingerprint,
+        "order": claim.order,
+        "jacobian": claim.jacobian,
+        "inputs": [_port(port) for port in tape.inputs],
+        "outputs": [_port(port) for port in tape.outputs],
+        "tape": [_step(step) for step in tape.instructions],
+        "senses": [relation.sense for relation in claim.relations],
+        "worded": [h.id for h in claim.hypotheses if h.relation is None],
+        "domain": [_range(interval) for interval in claim.domain],
+    }
+
+
+def exact_point(point: Witness) -> dict[str, list[str]]:
+    """A point as text, without rounding.
+
+    Raises:
+        RrnnError: a number is not finite.
+    """
+    try:
+        return {name: [str(Fraction(x)) for x in point[name]] for name in point}
+    except (ValueError, OverflowError) as error:
+        raise RrnnError("witness: every number must be finite") from error
+
+
+def _port(port: Port) -> list[Any]:
+    return [port.name, list(port.shape)]
+
+
+def _step(step: Instruction) -> list[Any]:
+    const = None if step.const is None else step.const.hex()
+    slot = None if step.slot is None else list(step.slot)
+    return [step.op, step.out, list(step.args), const, slot]
+
+
+def _range(interval: Range) -> dict[str, Any]:
+    def side(bounds: Sequence[Fraction | None]) -> list[str | None]:
+        return [None if x is None else str(Fraction(x)) for x in bounds]
+
+    lower, upper = side(interval.lower), side(interval.upper)
+    return {"variable": interval.variable, "lower": lower, "upper": upper}

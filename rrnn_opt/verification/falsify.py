@@ -1,0 +1,130 @@
+"""A seeded search for points that break a claim.
+
+What it finds are candidates in floating point, worst first.  They prove
+nothing until the checker has replayed them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from rrnn_opt.claim import Claim
+
+Array = NDArray[np.float64]
+Point = dict[str, list[Fraction]]
+
+_WIDTH = 4.0  # half the spread of a variable without bounds
+_STEPS = (0.5, 0.1, 0.02)
+_DENOMINATORS = (1, 4, 64)
+
+
+def candidates(
+    claim: Claim, *, seed: int = 0, samples: int = 128, starts: int = 4
+) -> Iterator[Point]:
+    """Points in the domain that break the goal in floating point.
+
+    Args:
+        claim: the claim.
+        seed: of the generator.
+        samples: points of the first sweep.
+        starts: how many of them are improved and offered.
+
+    Yields:
+        Points; the same one in simpler numbers first, where that is possible.
+    """
+    rng = np.random.default_rng(seed)
+    score = _Score(claim)
+    lower, upper = _box(claim)
+    points = [_draw(rng, lower, upper) for _ in range(samples)]
+    points.sort(key=score, reverse=True)
+    for start in points[:starts]:
+        best = _improved(start, score, rng, lower, upper)
+        if score(best) > 0.0:
+            yield from _simpler(claim, best, lower, upper)
+
+
+class _Score:
+    """How far a point breaks the goal; -inf where it is of no use."""
+
+    def __init__(self, claim: Claim) -> None:
+        self._relations = claim.relations
+        x = [ca.vec(s.sx) for s in claim.variables]
+        y = [ca.vec(r.expression) for r in claim.relations]
+        flat = ca.SX.sym("x", sum(s.size for s in claim.variables))
+        parts = ca.vertsplit(flat, [0, *np.cumsum([s.size for s in claim.variables])])
+        self._function = ca.Function("score", [flat], ca.substitute(y, x, parts))
+
+    def __call__(self, point: Array) -> float:
+        """Positive when the goal is broken and every hypothesis is kept."""
+        results = self._function.call([ca.DM(point)])
+        values = [np.asarray(v, dtype=np.float64).ravel() for v in results]
+        breaks = [
+            _breach(v, r.sense) for v, r in zip(values, self._relations, strict=True)
+        ]
+        if not all(np.isfinite(breaks)):
+            return -np.inf
+        kept = max(breaks[1:], default=0.0)
+        return breaks[0] if kept <= 0.0 else -kept - 1e6
+
+
+def _breach(values: Array, sense: str) -> float:
+    if sense == "==0":
+        return float(np.max(np.abs(values)))
+    return float(np.max(-values if sense in (">=0", ">0") else values))
+
+
+def _box(claim: Claim) -> tuple[Array, Array]:
+    """Bounds of all variables in one column; infinite where there are none."""
+    lower, upper = [], []
+    for symbol in claim.variables:
+        low, high = np.full(symbol.size, -np.inf), np.full(symbol.size, np.inf)
+        for interval in claim.domain:
+            if interval.variable == symbol.name:
+                for k, (a, b) in enumerate(
+                    zip(interval.lower, interval.upper, strict=True)
+                ):
+                    low[k] = low[k] if a is None else max(low[k], float(a))
+                    high[k] = high[k] if b is None else min(high[k], float(b))
+        lower.append(low)
+        upper.append(high)
+    return np.concatenate(lower), np.concatenate(upper)
+
+
+def _draw(rng: np.random.Generator, lower: Array, upper: Array) -> Array:
+    low = np.where(np.isfinite(lower), lower, np.minimum(-_WIDTH, upper - 2 * _WIDTH))
+    high = np.where(np.isfinite(upper), upper, np.maximum(_WIDTH, low + 2 * _WIDTH))
+    return low + (high - low) * rng.random(low.size)
+
+
+def _improved(
+    start: Array, score: _Score, rng: np.random.Generator, lower: Array, upper: Array
+) -> Array:
+    """A few random steps uphill, shorter and shorter."""
+    best, value = start, score(start)
+    for step in _STEPS:
+        for _ in range(8):
+            moved = best + step * rng.standard_normal(best.size)
+            moved = np.clip(moved, lower, upper)
+            if (gain := score(moved)) > value:
+                best, value = moved, gain
+    return best
+
+
+def _simpler(claim: Claim, point: Array, lower: Array, upper: Array) -> Iterator[Point]:
+    for denominator in _DENOMINATORS:
+        rounded = np.clip(np.round(point * denominator) / denominator, lower, upper)
+        yield _named(claim, rounded)
+    yield _named(claim, point)
+
+
+def _named(claim: Claim, point: Array) -> Point:
+    numbers = iter(point.tolist())
+    return {
+        symbol.name: [Fraction(next(numbers)) for _ in range(symbol.size)]
+        for symbol in claim.variables
+    }
