@@ -1,1 +1,19 @@
-"""TODO-DOC report."""
+"""Pictures, pages and tables of plain results.
+
+Everything here reads documents (the JSON of a result) and draws them; nothing
+is computed that a verdict could rest on.
+"""
+
+from rrnn_opt.report.files import write_bytes, write_text
+from rrnn_opt.report.page import write_page
+from rrnn_opt.report.picture import draw_plan
+from rrnn_opt.report.tables import check_line, table
+
+__all__ = [
+    "check_line",
+    "draw_plan",
+    "table",
+    "write_bytes",
+    "write_page",
+    "write_text",
+]

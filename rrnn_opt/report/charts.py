@@ -1,0 +1,78 @@
+"""The small charts beside the picture; each draws into the axes it is given."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rrnn_opt.report.motion import Motion
+
+Array = NDArray[np.float64]
+
+INK = "#2b2f38"
+GRID = "#e3e6ec"
+LIMIT = "#c0392b"
+CURVES = ("#3b6fb6", "#e08b2d", "#4a9d6e", "#b5527d", "#7a68b3", "#8a6d4b", "#4aa5b5")
+
+
+def velocities(axes: Any, document: dict[str, Any], motion: Motion) -> None:
+    """Joint velocities over time, each as a share of its own limit."""
+    limits = np.asarray(document["robot"]["limits"]["velocity"], dtype=float)
+    names = document["robot"].get("joint_names") or _numbered(len(limits))
+    assert motion.qd is not None
+    for k, share in enumerate((motion.qd / limits).T):
+        axes.plot(motion.t, share, color=CURVES[k % 7], lw=1.3, label=names[k])
+    for level in (-1.0, 1.0):
+        axes.axhline(level, color=LIMIT, lw=1.0, ls=(0, (4, 3)))
+    axes.set_ylim(-1.2, 1.2)
+    _dress(axes, "joint velocity / limit", "time [s]", motion.t)
+    if len(names) <= 8:
+        axes.legend(ncol=4, fontsize=6.5, frameon=False, loc="lower center")
+        axes.set_ylim(-1.75, 1.2)
+        axes.set_yticks([-1, -0.5, 0, 0.5, 1])
+
+
+def memory_cell(axes: Any, activity: Array) -> None:
+    """Activity of the memory cell before each exploration."""
+    order = np.arange(1, len(activity) + 1)
+    axes.step(order, activity, where="mid", color=CURVES[3], lw=1.3)
+    if len(order) <= 60:
+        axes.plot(order, activity, "o", color=CURVES[3], ms=3.2)
+    axes.axhline(0.5, color="#9aa1ad", lw=0.8, ls=(0, (2, 3)))
+    axes.set_ylim(-0.06, 1.06)
+    _dress(axes, "memory-cell activity before each exploration", "exploration", order)
+    axes.set_xlim(0.5, len(order) + 0.5)
+    axes.xaxis.get_major_locator().set_params(integer=True)
+
+
+def clearance(axes: Any, motion: Motion, distance: Array, proved: Any) -> None:
+    """Distance to the obstacles at the samples, with the proved bound."""
+    axes.plot(motion.t, 1e3 * distance, color=CURVES[0], lw=1.4, label="sampled")
+    axes.axhline(0.0, color=LIMIT, lw=1.0, ls=(0, (4, 3)))
+    if proved is not None:
+        text = f"proved: at least {1e3 * proved:.2f} mm"
+        axes.axhline(1e3 * proved, color=CURVES[2], lw=1.0, label=text)
+    top = float(1e3 * distance.max())
+    axes.set_ylim(min(-0.08 * top, 1.1e3 * float(distance.min())), 1.12 * top + 1e-9)
+    _dress(axes, "clearance to obstacles [mm]", "time [s]", motion.t)
+    axes.legend(fontsize=6.5, frameon=False, loc="upper right")
+
+
+def _dress(axes: Any, title: str, below: str, over: Array) -> None:
+    axes.set_title(title, loc="left", fontsize=9, color=INK, pad=5)
+    axes.set_xlabel(below, fontsize=7.5, color=INK, labelpad=2)
+    if len(over) > 1:
+        axes.set_xlim(over[0], over[-1])
+    axes.tick_params(labelsize=7, colors=INK, length=2.5)
+    axes.grid(True, color=GRID, lw=0.6)
+    axes.set_axisbelow(True)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+    for side in ("left", "bottom"):
+        axes.spines[side].set_color("#9aa1ad")
+
+
+def _numbered(count: int) -> list[str]:
+    return [f"q{k + 1}" for k in range(count)]

@@ -1,0 +1,52 @@
+"""Files that appear whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+
+def write_bytes(path: str | Path, data: bytes) -> Path:
+    """Write a file under another name and move it into place.
+
+    Args:
+        path: file to write; its folder exists.
+        data: what it shall hold.
+
+    Returns:
+        The path.
+
+    Raises:
+        OSError: it cannot be written; what stood there before is untouched
+            and nothing half-written is left.
+    """
+    target = Path(path)
+    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(name, 0o666 & ~_umask())
+        os.replace(name, target)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+    return target
+
+
+def write_text(path: str | Path, text: str) -> Path:
+    """Write a UTF-8 file like ``write_bytes``.
+
+    Raises:
+        OSError: as there.
+    """
+    return write_bytes(path, text.encode("utf-8"))
+
+
+def _umask() -> int:
+    """The permission bits that this process withholds from new files."""
+    mask = os.umask(0o022)
+    os.umask(mask)
+    return mask
