@@ -1,1 +1,10 @@
-"""TODO-DOC check."""
+"""The trusted base: re-checks what others deliver, and shares nothing with them.
+
+Its own forward kinematics from plain arrays, its own distances, its own
+bounds.  Verdicts are PROVED, REFUTED (with a witness) or UNKNOWN; samples are
+never a certificate.
+"""
+
+from rrnn_opt.check.trajectory import TrajectoryCertificate, certify_trajectory
+
+__all__ = ["TrajectoryCertificate", "certify_trajectory"]
