@@ -163,7 +163,7 @@ def _file(base: Path, ref: str, field: str) -> Path:
     except OSError:  # a name that no file can have
         found = False
     if not found:
-        raise ProblemError(field, f"there is no file '{path}'")
+        raise ProblemError(field, f"there is no file {fields.shown(str(path), 200)}")
     return path
 
 

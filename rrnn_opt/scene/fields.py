@@ -30,15 +30,15 @@ _NORMALISED = 1e-14
 _SHOWN = 40
 
 
-def shown(value: object) -> str:
-    """``value`` as it appears in a message: short and on one line."""
+def shown(value: object, limit: int = _SHOWN) -> str:
+    """``value`` as it appears in a message: one line of ``limit`` characters."""
     if isinstance(value, dict | list | tuple):
         return f"a {type(value).__name__} of {len(value)}"
     try:
         text = " ".join(repr(value).split())
     except (ValueError, RecursionError):  # integers of thousands of digits
         text = f"a huge {type(value).__name__}"
-    return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."
+    return text if len(text) <= limit else text[: limit - 3] + "..."
 
 
 def number(value: object, field: str) -> float:
@@ -195,5 +195,6 @@ def join(field: str, key: object) -> str:
 
 def suggestion(word: object, known: Collection[str]) -> str:
     """The known name closest to ``word``, or all of them, for a message."""
-    close = difflib.get_close_matches(shown(word), known, n=1)
+    name = word[:_SHOWN] if isinstance(word, str) else shown(word)
+    close = difflib.get_close_matches(name, known, n=1)
     return f"did you mean '{close[0]}'?" if close else "known: " + ", ".join(known)

@@ -1,0 +1,383 @@
+"""The problem file: read, defaults filled in, or refused in one sentence."""
+
+import copy
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rrnn_opt.errors import DocumentError, ProblemError, RobotError
+from rrnn_opt.planning.goals import JointGoal, TipGoal
+from rrnn_opt.planning.problem import Problem
+from rrnn_opt.robot.robot import Frame, JointTree, Limits, Robot, Sphere
+from rrnn_opt.scene import Box, Scene
+from rrnn_opt.scene.library import SCENARIOS, scenario
+
+FAMILIES = sorted((Path(__file__).parents[1] / "data" / "mbm").glob("*.json"))
+
+
+def valid():
+    return {
+        "name": "reach round a post",
+        "robot": "planar3",
+        "frame": "tip",
+        "locked": {},
+        "start": [0.1, 0.2, 0.3],
+        "goal": [
+            {"joints": [1, 1, 1]},
+            {"position": [1, 1, 0]},
+            {
+                "position": [1.5, 1, 0],
+                "tolerance": 0.01,
+                "quat_xyzw": [0, 0, 0.6, 0.8],
+                "angle_tolerance": 0.1,
+            },
+        ],
+        "obstacles": [
+            {
+                "name": "b",
+                "type": "box",
+                "size": [0.1, 0.2, 0.3],
+                "position": [2, 0, 0],
+            },
+            {"type": "cylinder", "radius": 0.1, "length": 0.2, "position": [2, 0, 1]},
+            {
+                "type": "capsule",
+                "radius": 0.1,
+                "length": 1,
+                "position": [0, 2, 1],
+                "quat_xyzw": [0.6, 0, 0, 0.8],
+            },
+            {"type": "sphere", "radius": 0.1, "position": [2, 0, 1]},
+            {"type": "halfspace", "normal": [0, 0, 1], "offset": -0.5},
+        ],
+        "margin": 0.01,
+    }
+
+
+def changed(*path_and_value):
+    """The valid problem with the entry at a path set (or, at ..., removed)."""
+    *path, key, value = path_and_value
+    problem = at = valid()
+    for step in path:
+        at = at[step]
+    if value is ...:
+        del at[key]
+    else:
+        at[key] = value
+    return problem
+
+
+def minimal():
+    return {"robot": "planar3", "start": [0, 0, 0], "goal": {"position": [1, 1, 0]}}
+
+
+def one_joint(kind, low, high, spheres=True):
+    """A robot of one joint at the origin, with a ball of 5 cm on its tip."""
+    row = np.array([1.0])
+    tree = JointTree(
+        parents=np.array([-1]),
+        types=(kind,),
+        placements=np.eye(4)[None],
+        axes=np.array([[0.0, 0.0, 1.0]]),
+        source=np.array([0]),
+        multiplier=row,
+        offset=0 * row,
+    )
+    limits = Limits(np.array([low]), np.array([high]), row, row)
+    ball = Sphere("arm", 0, np.array([1.0, 0.0, 0.0]), 0.05)
+    frames = (Frame("tip", 0, np.eye(4)),)
+    balls = (ball,) if spheres else ()
+    return Robot("one", ("swing",), tree, limits, frames, "tip", balls)
+
+
+def test_reads_everything():
+    problem = Problem.from_dict(valid())
+    assert (problem.robot.name, problem.robot_ref) == ("planar3", "planar3")
+    assert (problem.frame, problem.margin) == ("tip", 0.01)
+    assert np.array_equal(problem.start, [0.1, 0.2, 0.3])
+    joints, point, pose = problem.goals
+    assert isinstance(joints, JointGoal)
+    assert np.array_equal(joints.joints, [1, 1, 1])
+    assert isinstance(point, TipGoal)
+    assert point.quat_xyzw is None
+    assert (pose.tolerance, pose.angle_tolerance) == (0.01, 0.1)
+    names = [o.name for o in problem.scene]
+    assert names == ["b", "cylinder1", "capsule2", "sphere3", "halfspace4"]
+
+
+def test_defaults_are_filled_in():
+    data = minimal()
+    data["obstacles"] = [{"type": "box", "size": [1, 1, 1], "position": [9, 0, 0]}]
+    filled = Problem.from_dict(data).to_dict()
+    assert filled == {
+        "robot": "planar3",
+        "frame": "tip",
+        "locked": {},
+        "start": [0.0, 0.0, 0.0],
+        "goal": {"position": [1.0, 1.0, 0.0], "tolerance": 0.001},
+        "obstacles": [
+            {
+                "name": "box0",
+                "type": "box",
+                "size": [1.0, 1.0, 1.0],
+                "position": [9.0, 0.0, 0.0],
+                "quat_xyzw": [0.0, 0.0, 0.0, 1.0],
+            }
+        ],
+        "margin": 0.0,
+    }
+
+
+def test_what_is_written_reads_back_the_same():
+    once = Problem.from_dict(valid()).to_dict()
+    text = json.dumps(once, allow_nan=False)
+    assert Problem.from_dict(json.loads(text)).to_dict() == once
+
+
+def test_a_pose_goal_without_angle_tolerance_gets_the_default():
+    goal = {"position": [1, 1, 0], "quat_xyzw": [0, 0, 0, 1]}
+    written = Problem.from_dict({**minimal(), "goal": goal}).to_dict()["goal"]
+    assert (written["tolerance"], written["angle_tolerance"]) == (0.001, 0.01)
+
+
+REFUSED = [
+    (("robot", ...), "robot", "is missing"),
+    (("robot", "planr3"), "robot", "did you mean 'planar3'"),
+    (("robot", 3), "robot", "expected a text"),
+    (("robot", "no/such.urdf"), "robot", "there is no file"),
+    (("robot", "x" * 5000 + ".urdf"), "robot", "there is no file"),
+    (("robot", "a\0.urdf"), "robot", "printable"),
+    (("frame", "tipp"), "frame", "no frame 'tipp'"),
+    (("spheres", "s.json"), "spheres", "built in"),
+    (("locked", {"a": 1.0}), "locked", "built in"),
+    (("locked", {"a": math.nan}), "locked.a", "finite"),
+    (("locked", []), "locked", "expected an object"),
+    (("start", ...), "start", "is missing"),
+    (("start", [0, 0]), "start", "expected 3 numbers, got 2"),
+    (("start", 0), "start", "expected a list"),
+    (("start", 1, math.nan), "start[1]", "finite"),
+    (("start", 1, -math.inf), "start[1]", "finite"),
+    (("start", 1, True), "start[1]", "expected a number, got True"),
+    (("start", 1, "0"), "start[1]", "expected a number, got '0'"),
+    (("start", 1, None), "start[1]", "expected a number"),
+    (("start", 1, 10**400), "start[1]", "finite"),
+    (("start", 1, 10**5000), "start[1]", "finite"),
+    (("start", 1, 1e7), "start[1]", "too large"),
+    (("start", 1, 3.0), "start[1]", "at 3.0 is outside its limits [-2.9, 2.9]"),
+    (("goal", ...), "goal", "is missing"),
+    (("goal", []), "goal", "at least one"),
+    (("goal", None), "goal", "expected an object"),
+    (("goal", {}), "goal.position", "is missing"),
+    (("goal", {"joints": [0, 0]}), "goal.joints", "expected 3 numbers"),
+    (("goal", 0, "joints", [0, 0, -3]), "goal[0].joints[2]", "outside its limits"),
+    (("goal", 0, "position", [0, 0, 0]), "goal[0].position", "not a known field"),
+    (("goal", 1, "position", [0, 0]), "goal[1].position", "expected 3 numbers"),
+    (("goal", 1, "position", 2, math.inf), "goal[1].position[2]", "finite"),
+    (("goal", 1, "tolerance", 0), "goal[1].tolerance", "greater than zero"),
+    (("goal", 1, "tolerence", 1), "goal[1].tolerence", "did you mean 'tolerance'"),
+    (("goal", 1, "angle_tolerance", 1), "goal[1].angle_tolerance", "needs quat_xyzw"),
+    (("goal", 1, "quat_xyzw", None), "goal[1].quat_xyzw", "expected a list"),
+    (("goal", 2, "quat_xyzw", [0] * 4), "goal[2].quat_xyzw", "unit length"),
+    (("goal", 2, "region", {"box": [1, 1, 1]}), "goal[2].region", "not support"),
+    (("goal", 2, "free_axis", "z"), "goal[2].free_axis", "not support"),
+    (("obstacles", {}), "obstacles", "expected a list"),
+    (("obstacles", 1, 7), "obstacles[1]", "expected an object"),
+    (("obstacles", 0, "type", ...), "obstacles[0].type", "is missing"),
+    (("obstacles", 0, "type", "bx"), "obstacles[0].type", "did you mean 'box'"),
+    (("obstacles", 0, "type", "mesh"), "obstacles[0].type", "does not support 'mesh'"),
+    (("obstacles", 0, "type", "points"), "obstacles[0].type", "not support 'points'"),
+    (("obstacles", 0, "size", ...), "obstacles[0].size", "is missing"),
+    (("obstacles", 0, "size", 1, 0), "obstacles[0].size[1]", "greater than zero"),
+    (("obstacles", 0, "size", 1, 1e300), "obstacles[0].size[1]", "too large"),
+    (("obstacles", 0, "radius", 1), "obstacles[0].radius", "not a known field"),
+    (("obstacles", 1, "raduis", 1), "obstacles[1].raduis", "did you mean 'radius'"),
+    (("obstacles", 3, "quat_xyzw", [0, 0, 0, 1]), "obstacles[3].quat_xyzw", "known"),
+    (("obstacles", 4, "normal", [0, 0, 0]), "obstacles[4].normal", "unit length"),
+    (("obstacles", 0, "name", 5), "obstacles[0].name", "expected a text"),
+    (("attached", [{"frame": "tip"}]), "attached", "not support"),
+    (("margin", -0.1), "margin", "not be negative"),
+    (("margin", False), "margin", "expected a number"),
+    (("obstacels", []), "obstacels", "did you mean 'obstacles'"),
+    (("name", 1), "name", "expected a text"),
+]
+
+
+IDS = [f"{k}-{field}" for k, (_, field, _) in enumerate(REFUSED)]
+
+
+@pytest.mark.parametrize(("change", "field", "words"), REFUSED, ids=IDS)
+def test_refused_with_the_name_of_the_field(change, field, words):
+    with pytest.raises(ProblemError) as caught:
+        Problem.from_dict(changed(*change))
+    assert caught.value.field == field
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 300
+
+
+@pytest.mark.parametrize("data", [None, [], "x", 3, [valid()]])
+def test_a_document_that_is_no_object_is_refused(data):
+    with pytest.raises(ProblemError, match="problem: expected an object"):
+        Problem.from_dict(data)
+
+
+def test_an_empty_list_of_attached_bodies_is_no_request():
+    assert Problem.from_dict(changed("attached", [])).margin == 0.01
+
+
+def test_the_ends_of_the_limits_are_inside():
+    robot = one_joint("revolute", -1.0, 2.0)
+    goals = (JointGoal([2.0]),)
+    assert Problem(robot, [-1.0], goals=goals).start[0] == -1.0
+    with pytest.raises(ProblemError) as caught:
+        Problem(robot, [np.nextafter(-1.0, -2.0)], goals=goals)
+    assert str(caught.value) == (
+        "start[0]: joint 'swing' at -1.0000000000000002 is outside its limits"
+        " [-1.0, 2.0]"
+    )
+
+
+def test_a_continuous_joint_has_no_limits():
+    robot = one_joint("continuous", -np.inf, np.inf)
+    problem = Problem(robot, [1000.0], goals=(JointGoal([-1000.0]),))
+    assert problem.to_dict()["start"] == [1000.0]
+
+
+def test_a_robot_without_spheres_is_told_how_to_get_them():
+    robot = one_joint("revolute", -1.0, 1.0, spheres=False)
+    with pytest.raises(ProblemError, match="`rrnn spheres URDF --out FILE`"):
+        Problem(robot, [0.0], goals=(JointGoal([0.0]),))
+
+
+def test_built_in_python():
+    scene = Scene((Box("b", [1, 1, 1]),))
+    goals = [TipGoal([1, 0, 0])]
+    problem = Problem(one_joint("revolute", -1, 1), [0], goals=goals, scene=scene)
+    assert (problem.frame, problem.robot_ref, problem.margin) == ("tip", "one", 0.0)
+    assert isinstance(problem.goals, tuple)
+    assert not problem.start.flags.writeable
+
+
+def test_files_are_sought_beside_the_problem_file(tmp_path, monkeypatch):
+    asked = {}
+
+    def from_urdf(path, **options):
+        asked.update(path=path, **options)
+        return one_joint("revolute", -1, 1)
+
+    monkeypatch.setattr(Robot, "from_urdf", staticmethod(from_urdf))
+    (tmp_path / "arm").mkdir()
+    for file in ("arm/one.urdf", "balls.json"):
+        (tmp_path / file).write_text("")
+    data = {
+        **minimal(),
+        "robot": "arm/one.urdf",
+        "spheres": "balls.json",
+        "frame": "tip",
+        "locked": {"finger": 0.02},
+        "start": [0],
+    }
+    (tmp_path / "p.json").write_text(json.dumps(data))
+    problem = Problem.load(tmp_path / "p.json")
+    assert asked == {
+        "path": tmp_path / "arm/one.urdf",
+        "tip": "tip",
+        "spheres": tmp_path / "balls.json",
+        "locked": {"finger": 0.02},
+    }
+    written = problem.to_dict()
+    assert (written["robot"], written["spheres"]) == ("arm/one.urdf", "balls.json")
+    assert written["locked"] == {"finger": 0.02}
+    (tmp_path / "balls.json").unlink()
+    with pytest.raises(ProblemError, match="spheres: there is no file"):
+        Problem.load(tmp_path / "p.json")
+
+
+@pytest.mark.parametrize("file", FAMILIES, ids=lambda f: f.stem)
+def test_benchmark_problems_load(file):
+    problem = Problem.load(file)
+    assert problem.robot.name == "panda"
+    assert isinstance(problem.goals[0], JointGoal)
+    assert len(problem.scene) == len(json.loads(file.read_text())["obstacles"])
+
+
+def test_there_is_a_benchmark_problem_of_each_family():
+    assert [f.stem for f in FAMILIES] == [
+        "bookshelf_small",
+        "bookshelf_tall",
+        "box",
+        "table_pick",
+        "table_under_pick",
+    ]
+
+
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_shipped_scenarios_are_problems_from_every_start(name):
+    shipped = scenario(name)
+    for start in range(len(shipped.starts)):
+        Problem.from_dict(shipped.problem(start))
+
+
+JUNK = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.integers(),
+    st.just(10**400),
+    st.floats(),
+    st.text(max_size=8),
+    st.sampled_from(["box", "mesh", "pa10", "planar3", "..", "/", "x.urdf", "tip"]),
+    st.lists(st.floats(), max_size=4),
+    st.lists(st.none(), max_size=2),
+    st.dictionaries(st.text(max_size=5), st.floats(), max_size=2),
+    st.just({1: 2}),
+    st.just({"joints": [0, 0, 0]}),
+)
+
+
+def places(value, path=()):
+    """Paths of all entries inside nested dicts and lists."""
+    if isinstance(value, dict | list):
+        keys = value.keys() if isinstance(value, dict) else range(len(value))
+        for key in list(keys):
+            yield (*path, key)
+            yield from places(value[key], (*path, key))
+
+
+@settings(derandomize=True, deadline=None, max_examples=200)
+@given(st.data())
+def test_mutated_problems_are_read_or_refused(data):
+    problem = copy.deepcopy(valid())
+    for _ in range(data.draw(st.integers(1, 3))):
+        where = list(places(problem))
+        if not where:
+            break
+        *path, key = data.draw(st.sampled_from(where))
+        at = problem
+        for step in path:
+            at = at[step]
+        action = data.draw(st.sampled_from(["replace", "delete", "add"]))
+        if action == "replace":
+            at[key] = data.draw(JUNK)
+        elif action == "delete":
+            del at[key]
+        elif isinstance(at, dict):
+            at[data.draw(st.text(max_size=8))] = data.draw(JUNK)
+        else:
+            at.append(data.draw(JUNK))
+    written, refusal = outcome(problem)
+    assert "\n" not in refusal
+    if not refusal:
+        json.dumps(written, allow_nan=False)
+        assert outcome(written) == (written, "")
+
+
+def outcome(data):
+    try:
+        return Problem.from_dict(data).to_dict(), ""
+    except (ProblemError, DocumentError, RobotError) as error:
+        return None, str(error)
