@@ -14,20 +14,6 @@ from rrnn_opt.symbolic.tape import Instruction, Port, Tape
 WARNINGS = """-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion
     -Wfloat-conversion -Wmissing-prototypes -Werror"""
 STRICT = ["-std=c99", "-O2", "-ffp-contract=off", "-c", *re.findall(r"\S+", WARNINGS)]
-    "-std=c99",
-    "-O2",
-    "-Wall",
-    "-Wextra",
-    "-Wpedantic",
-    "-Wconversion",
-    "-Wshadow",
-    "-Wdouble-promotion",
-    "-Wfloat-conversion",
-    "-Wmissing-prototypes",
-    "-Werror",
-    "-ffp-contract=off",
-    "-c",
-]
 Q = ca.SX.sym("q", 3)
 
 

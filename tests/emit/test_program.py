@@ -189,7 +189,8 @@ import casadi as ca, numpy as np
 from rrnn_opt import emit
 x = ca.SX.sym('x')
 f = ca.Function('f', [x], [ca.sin(x), ca.cos(x)], ['x'], ['s', 'c'])
-flags = ('-fsanitize=undefined,float-cast-overflow', '-fsanitize-undefined-trap-on-error')
+flags = ['-fsanitize=undefined,float-cast-overflow']
+flags += ['-fsanitize-undefined-trap-on-error']
 p = emit.compile(f, name='trap', real=REAL, flags=flags)
 t = p.entries['f'].inputs[0].dtype
 bits = np.frombuffer(np.random.default_rng(0).bytes(80000), t)
