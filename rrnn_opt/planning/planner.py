@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -14,31 +13,18 @@ from numpy.typing import NDArray
 from rrnn_opt import check
 from rrnn_opt.errors import ProblemError, RetimeError
 from rrnn_opt.motion import Trajectory, deliver, shortcut
-from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.feasibility import Infeasible, OpenGoals, blocked, open_goals
 from rrnn_opt.planning.problem import Problem
 from rrnn_opt.planning.request import pack
 from rrnn_opt.planning.result import PlanResult, PlanStats
+from rrnn_opt.planning.runtime_cache import runtime_of
 from rrnn_opt.planning.runtime_library import Runtime, Search
 from rrnn_opt.planning.settings import PLANNERS, RandomRnn
-from rrnn_opt.robot import Robot
 
 Array = NDArray[np.float64]
 Progress = Callable[[str, int], None]
 SLICE_S = 0.02
 DEFAULT_EXPLORATIONS = 20_000
-
-
-def runtime_of(robot: Robot, cell: MemoryCell) -> Runtime:
-    """The compiled planner of a robot.
-
-    Raises:
-        CompilerError: there is no C compiler, or it failed.
-    """
-    return Runtime(robot, cell)
-
-
-_built_in = lru_cache(maxsize=16)(runtime_of)
 
 
 @dataclass
@@ -55,12 +41,10 @@ class _Run:
     trajectory: Trajectory | None = None
     certificate: dict[str, Any] | None = None
     times: dict[str, Any] = field(default_factory=dict)
-    trees: Any = None
 
     def result(self, status: str, message: str, **more: Any) -> PlanResult:
-        certificate = self.certificate
-        if certificate is not None:
-            more["certificate"] = certificate
+        if self.certificate is not None:
+            more["certificate"] = self.certificate
         return PlanResult(
             status=status,
             message=message,
@@ -124,7 +108,7 @@ def plan(
         raise ProblemError("budget", "explorations and time limit must be positive")
     run = _Run(problem, seed, planner, chosen, time.perf_counter())
     begin = time.perf_counter()
-    runtime = _runtime(problem.robot, chosen.cell)
+    runtime = runtime_of(problem.robot, chosen.cell)
     run.times["compile_time_s"] = time.perf_counter() - begin
     return _planned(run, runtime, time_limit, max_explorations, on_progress)
 
@@ -134,11 +118,6 @@ def _settings(planner: str) -> RandomRnn:
         known = ", ".join(PLANNERS)
         raise ProblemError("planner", f"no planner '{planner}'; there are {known}")
     return PLANNERS[planner]
-
-
-def _runtime(robot: Robot, cell: MemoryCell) -> Runtime:
-    """Built-in robots are single objects: their runtime is kept in memory."""
-    return _built_in(robot, cell)
 
 
 def _planned(
