@@ -1,0 +1,178 @@
+"""Equilibria of networks, judged as optima of their programmes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rrnn_opt.dynamics import NeuralDynamics
+from rrnn_opt.errors import InfeasibleQpError, RrnnError
+from rrnn_opt.formulation import Formulation
+from rrnn_opt.solving.network import restable
+from rrnn_opt.solving.residual import NOT_JUDGED, Array, Dense, Residual
+from rrnn_opt.solving.rest import Attempt, Job
+from rrnn_opt.solving.status import Status
+from rrnn_opt.symbolic.values import arguments
+
+MAX_STEPS = 200_000
+"""Euler steps before a network counts as not settling; some 50 ms in C."""
+
+
+@dataclass(frozen=True, eq=False)
+class SettleInfo:
+    """How a network came to rest.
+
+    Attributes:
+        status: our judgement; a point is returned only with ``has_point``.
+        steps: Euler steps in all.
+        step: the last Euler step used, s.
+        residual: KKT residuals of the programme at the equilibrium, computed
+            by us; infinite when nothing was reached.
+        duals: "equality" is the lambda of (4), minus the y of qpsolvers;
+            "inequality" its z; "box" its z_box.  All of the rows as declared.
+        state: where the network stands, (n,); good for a warm start.
+        time_s: wall time without compilation, s.
+        message: one sentence.
+    """
+
+    status: Status
+    steps: int
+    step: float
+    residual: Residual
+    duals: Mapping[str, Array]
+    state: Array
+    time_s: float
+    message: str = ""
+
+    @property
+    def kkt_residual(self) -> float:
+        """The largest of the KKT residuals."""
+        return self.residual.worst
+
+
+def settle(
+    dyn: NeuralDynamics,
+    *,
+    tolerance: float = 1e-8,
+    max_steps: int = MAX_STEPS,
+    step: float | None = None,
+    start: ArrayLike | None = None,
+    **params: ArrayLike,
+) -> tuple[Array | None, SettleInfo]:
+    """Run a network to its equilibrium and judge it as the QP's optimum.
+
+    The Euler loop runs in compiled C (through CasADi's interpreter where there
+    is no compiler).  It stops on the network's own residual; then the KKT
+    residual of the programme is computed, and the network runs on until that
+    is within the tolerance too.
+
+    Args:
+        dyn: a network made from a formulation.
+        tolerance: on the absolute KKT residual, largest component.
+        max_steps: Euler steps in all for one choice of the step.
+        step: Euler step h, s; None takes half of what is stable, from the
+            modes of the network at its start (see ``stable_step``), and less
+            if that diverges.
+        start: (n,) state to start from; by default u is the point of the box
+            nearest to zero and all multipliers are zero.
+        **params: one array a parameter of the network.
+
+    Returns:
+        The minimiser, (n,), or None where ``info.status`` has no point; and
+        how it went.
+
+    Raises:
+        RrnnError: the network comes from no formulation, or a parameter is
+            missing, unknown, of the wrong shape or not finite.
+    """
+    return settle_at(
+        dyn,
+        params,
+        tolerance=tolerance,
+        max_steps=max_steps,
+        step=step,
+        start=start,
+    )
+
+
+def settle_at(
+    dyn: NeuralDynamics,
+    parameters: Mapping[str, ArrayLike],
+    *,
+    tolerance: float = 1e-8,
+    max_steps: int = MAX_STEPS,
+    step: float | None = None,
+    start: ArrayLike | None = None,
+) -> tuple[Array | None, SettleInfo]:
+    """``settle`` with the parameters in a mapping; they may have any name.
+
+    Args:
+        dyn: a network made from a formulation.
+        parameters: one array a parameter of the network.
+        tolerance: on the absolute KKT residual.
+        max_steps: Euler steps in all for one choice of the step.
+        step: Euler step h, s, or None.
+        start: (n,) state to start from, or None.
+
+    Returns:
+        As ``settle``.
+
+    Raises:
+        RrnnError: as ``settle``.
+    """
+    form = _formulation(dyn)
+    values = arguments(dyn.parameters, parameters, "settle")
+    try:
+        problem = Dense.of(form.qp.at(**parameters))
+    except InfeasibleQpError as error:
+        return None, _refused(dyn, str(error))
+    network = restable(dyn)
+    begin = time.perf_counter()
+    first = _start(dyn, problem, start)
+    h = network.stable_step(first, values) if step is None else step
+    job = Job(network, problem, values, tolerance, max_steps)
+    best = job.rest(first, h)
+    if not best.status.has_point:
+        best = job.insist(first, best)
+    return best.x, _info(best, time.perf_counter() - begin)
+
+
+def _formulation(dyn: NeuralDynamics) -> Formulation:
+    if dyn.formulation is None:
+        raise RrnnError(f"{dyn.name}: only a network made from a formulation settles")
+    return dyn.formulation
+
+
+def _start(dyn: NeuralDynamics, problem: Dense, start: ArrayLike | None) -> Array:
+    """The given state, or zero multipliers and the u in Omega nearest to zero."""
+    if start is not None:
+        return np.array(start, dtype=np.float64).reshape(dyn.state.size)
+    state = np.zeros(dyn.state.size)
+    n = problem.q.size
+    state[:n] = np.clip(0.0, problem.lb, problem.ub)
+    return state
+
+
+def _info(attempt: Attempt, time_s: float) -> SettleInfo:
+    return SettleInfo(
+        status=attempt.status,
+        steps=attempt.steps,
+        step=attempt.step,
+        residual=attempt.residual,
+        duals=attempt.duals,
+        state=attempt.state,
+        time_s=time_s,
+        message=attempt.status.value,
+    )
+
+
+def _refused(dyn: NeuralDynamics, message: str) -> SettleInfo:
+    """An empty bound: nothing was run."""
+    nowhere = np.full(dyn.state.size, np.nan)
+    return SettleInfo(
+        Status.PRIMAL_INFEASIBLE, 0, 0.0, NOT_JUDGED, {}, nowhere, 0.0, message
+    )
