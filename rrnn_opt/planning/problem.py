@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,7 @@ class Problem:
     """From ``start`` to any one of ``goals`` among the obstacles of ``scene``.
 
     Attributes:
-        robot: the arm.
+        robot: the arm; its tip is ``frame``.
         start: joint values, (nv,), rad or m; inside the limits.
         goals: one or more; any will do.
         scene: the obstacles.
@@ -58,7 +58,7 @@ class Problem:
     name: str = ""
 
     def __post_init__(self) -> None:
-        checked = {
+        checked: dict[str, Any] = {
             "start": fields.vector(self.start, self.robot.nv, "start"),
             "goals": tuple(self.goals),
             "margin": fields.not_negative(self.margin, "margin"),
@@ -66,6 +66,7 @@ class Problem:
             "robot_ref": self.robot_ref or self.robot.name,
             "locked": dict(self.locked),
         }
+        checked["robot"] = replace(self.robot, tip=checked["frame"])
         for key, value in checked.items():
             object.__setattr__(self, key, value)
         _require_spheres(self.robot)
@@ -191,12 +192,19 @@ def _frame(robot: Robot, name: str) -> str:
 
 
 def _require_spheres(robot: Robot) -> None:
-    if not robot.spheres:
-        message = (
-            f"'{robot.name}' has no collision spheres; make a sphere file with "
-            '`rrnn spheres URDF --out FILE` and name it under "spheres"'
-        )
-        raise ProblemError("robot", message)
+    """Refuse a robot whose body, or part of it, nothing stands for."""
+    missing = robot.cover.get("missing", ())
+    if robot.spheres and not missing:
+        return
+    lacks = "collision spheres"
+    if robot.spheres:
+        others = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
+        lacks += f" for the mesh of link '{missing[0]}'{others}"
+    message = (
+        f"'{robot.name}' has no {lacks}; make a sphere file with "
+        '`rrnn spheres URDF --out FILE` and name it under "spheres"'
+    )
+    raise ProblemError("robot", message)
 
 
 def _require_inside(robot: Robot, joints: Array, field: str) -> None:

@@ -1,6 +1,8 @@
 """The problem file: read, defaults filled in, or refused in one sentence."""
 
 import copy
+import dataclasses
+import importlib.metadata
 import json
 import math
 from pathlib import Path
@@ -254,6 +256,24 @@ def test_a_robot_without_spheres_is_told_how_to_get_them():
         Problem(robot, [0.0], goals=(JointGoal([0.0]),))
 
 
+def test_a_link_without_spheres_is_never_passed_over():
+    robot = one_joint("revolute", -1.0, 1.0)
+    partly = dataclasses.replace(robot, cover={"missing": ["hand", "finger"]})
+    with pytest.raises(ProblemError, match=r"link 'hand' and 1 more; .*`rrnn spheres"):
+        Problem(partly, [0.0], goals=(JointGoal([0.0]),))
+
+
+def test_a_real_urdf_of_meshes_is_told_too():
+    # one of its links is a cylinder: nearly the whole arm would go unchecked
+    files = importlib.metadata.files("example-robot-data")
+    urdf = next(str(f.locate()) for f in files if f.name == "ur5_robot.urdf")
+    problem = {"robot": urdf, "start": [0] * 6, "goal": {"joints": [0] * 6}}
+    with pytest.raises(ProblemError, match="the mesh of link 'base_link' and"):
+        Problem.from_dict({**problem, "frame": "ee_link"})
+    with pytest.raises(RobotError, match="nowhere"):
+        Problem.from_dict({**problem, "frame": "nowhere"})
+
+
 def test_built_in_python():
     scene = Scene((Box("b", [1, 1, 1]),))
     goals = [TipGoal([1, 0, 0])]
@@ -362,13 +382,13 @@ def test_mutated_problems_are_read_or_refused(data):
             at = at[step]
         action = data.draw(st.sampled_from(["replace", "delete", "add"]))
         if action == "replace":
-            at[key] = data.draw(JUNK)
+            at[key] = copy.deepcopy(data.draw(JUNK))
         elif action == "delete":
             del at[key]
         elif isinstance(at, dict):
-            at[data.draw(st.text(max_size=8))] = data.draw(JUNK)
+            at[data.draw(st.text(max_size=8))] = copy.deepcopy(data.draw(JUNK))
         else:
-            at.append(data.draw(JUNK))
+            at.append(copy.deepcopy(data.draw(JUNK)))
     written, refusal = outcome(problem)
     assert "\n" not in refusal
     if not refusal:
