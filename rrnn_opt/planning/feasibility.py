@@ -55,9 +55,11 @@ def describe(
     )
     margin = 0.0 if contact.is_self else problem.margin
     clearance = contact.gap + margin
-    what = f"link '{link}' and '{other}' are {clearance:.6g} m apart"
-    if margin > 0.0:
-        what += f" (margin {margin:g} m)"
+    pair = f"link '{link}' and '{other}'"
+    if clearance < 0.0:
+        what = f"{pair} overlap by {-clearance:.6g} m"
+    else:
+        what = f"{pair} are {clearance:.6g} m apart, less than the margin {margin:g} m"
     data = {"q": q.tolist(), "link": link, "other": other, "clearance": clearance}
     return what, data
 
@@ -68,7 +70,8 @@ def blocked(problem: Problem, search: Search, q: Array, name: str) -> Infeasible
     if contact is None or contact.gap >= 0.0:
         return None
     what, data = describe(problem, contact, q)
-    return Infeasible(f"{name} is in collision: {what}", data)
+    verb = "is in collision" if data["clearance"] < 0.0 else "is too close"
+    return Infeasible(f"{name} {verb}: {what}", data)
 
 
 def out_of_reach(problem: Problem, goal: TipGoal) -> Infeasible | None:
