@@ -1,0 +1,208 @@
+import casadi as ca
+import numpy as np
+import pytest
+import qpsolvers
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import rrnn_opt as rr
+from rrnn_opt.errors import CompilerError, NotFiniteError, RrnnError, ShapeError
+from rrnn_opt.solving import Status, settle
+from rrnn_opt.solving import network as network_module
+from rrnn_opt.solving.network import RestableNetwork
+
+
+def truth(form, **params):
+    return qpsolvers.solve_problem(form.qp.at(**params), solver="quadprog")
+
+
+@given(seed=st.integers(0, 1000))
+@settings(max_examples=15, deadline=None, derandomize=True)
+def test_the_equilibrium_is_the_optimum_with_its_multipliers(
+    form, network, posture, seed
+):
+    rng = np.random.default_rng(seed)
+    q = posture + rng.uniform(-0.3, 0.3, 7)
+    v = rng.normal(size=3) * 0.2
+    x, info = settle(network, q=q, rd_dot=v)
+    want = truth(form, q=q, rd_dot=v)
+    if want.x is None:
+        assert x is None
+        assert info.status is Status.PRIMAL_INFEASIBLE
+        return
+    assert info.status is Status.SOLVED
+    assert info.kkt_residual <= 1e-8
+    np.testing.assert_allclose(x, want.x, atol=1e-6)
+    np.testing.assert_allclose(info.duals["equality"], -want.y, atol=1e-5)
+    np.testing.assert_allclose(info.duals["box"], want.z_box, atol=1e-5)
+    assert info.duals["inequality"].shape == (0,)
+
+
+def test_active_bounds_are_settled_too(form, network, posture):
+    v = np.array([0.3, 0.4, 0.1])
+    x, info = settle(network, q=posture, rd_dot=v)
+    want = truth(form, q=posture, rd_dot=v)
+    assert np.abs(want.z_box).max() > 0.1
+    np.testing.assert_allclose(x, want.x, atol=1e-7)
+    np.testing.assert_allclose(info.duals["box"], want.z_box, atol=1e-6)
+
+
+def test_an_infeasible_programme_gives_no_point(network, posture):
+    x, info = settle(network, q=posture, rd_dot=[10.0, 0.0, 0.0], max_steps=5000)
+    assert x is None
+    assert info.status is Status.PRIMAL_INFEASIBLE
+    assert info.duals == {}
+    assert info.kkt_residual > 1.0
+
+
+def test_a_position_outside_its_limits_is_an_empty_bound(network, posture):
+    q = posture.copy()
+    q[1] = 5.0
+    x, info = settle(network, q=q, rd_dot=np.zeros(3))
+    assert x is None
+    assert info.status is Status.PRIMAL_INFEASIBLE
+    assert "bound 1 is empty" in info.message
+    assert info.steps == 0
+
+
+def test_too_few_steps_say_so(network, posture):
+    x, info = settle(network, q=posture, rd_dot=[0.1, 0.0, 0.0], max_steps=3)
+    assert x is None
+    assert info.status is Status.MAX_ITER
+
+
+def test_a_step_that_diverges_is_shortened(form, network, posture):
+    v = [0.1, 0.0, 0.1]
+    x, info = settle(network, q=posture, rd_dot=v, step=0.05)
+    assert info.step < 0.05
+    np.testing.assert_allclose(x, truth(form, q=posture, rd_dot=v).x, atol=1e-7)
+
+
+def test_a_warm_start_saves_steps(network, posture):
+    v = np.array([0.1, 0.0, 0.1])
+    _, cold = settle(network, q=posture, rd_dot=v)
+    _, warm = settle(network, q=posture, rd_dot=1.001 * v, start=cold.state)
+    assert warm.status is Status.SOLVED
+    assert warm.steps < 0.8 * cold.steps
+
+
+def test_inequality_rows_and_another_weight(kin, posture):
+    """A formulation with every part: rows, bounds and a Hessian that is not I."""
+    u = rr.Symbol.vector("u", 3, "1", "decision")
+    p = rr.Symbol.vector("p", 2, "1", "parameter")
+    weight = ca.DM([[2.0, 0.3, 0.0], [0.3, 1.0, 0.1], [0.0, 0.1, 0.7]])
+    form = rr.Formulation(
+        name="every_part",
+        decision=u,
+        parameters=(p,),
+        cost=ca.bilin(ca.SX(weight), u.sx, u.sx) / 2 + p.sx[1] * u.sx[0],
+        equalities=p.sx[0] - ca.sum1(u.sx),
+        inequalities=u.sx[2] - u.sx[1] + 0.05,
+        lower=ca.SX([-1.0, -1.0, -1.0]),
+        upper=ca.SX([1.0, 1.0, 0.6]),
+    )
+    network = rr.networks.PrimalDual(epsilon=0.02)(form)
+    given = {"p": np.array([1.5, -0.4])}
+    x, info = settle(network, **given)
+    want = truth(form, **given)
+    assert want.z[0] > 0.01
+    np.testing.assert_allclose(x, want.x, atol=1e-7)
+    np.testing.assert_allclose(info.duals["inequality"], want.z, atol=1e-6)
+    np.testing.assert_allclose(info.duals["equality"], -want.y, atol=1e-6)
+
+
+def test_position_feedback_is_a_projection(kin, posture):
+    form = rr.formulations.position_feedback(kin, epsilon=0.02)
+    network = rr.networks.PrimalDual(epsilon=0.02)(form)
+    rd = np.array([0.75, 0.05, 0.66])
+    x, info = settle(network, q=posture, rd=rd)
+    problem = form.qp.at(q=posture, rd=rd)
+    np.testing.assert_allclose(x, np.clip(-problem.q, problem.lb, problem.ub))
+    assert info.duals["equality"].shape == (0,)
+
+
+def test_without_a_compiler_the_interpreter_does_the_same(
+    network, posture, monkeypatch
+):
+    compiled = RestableNetwork.of(network)
+    assert compiled.compiled is not None
+
+    def nothing(*args, **kwargs):
+        raise CompilerError("no C compiler")
+
+    monkeypatch.setattr(network_module.emit, "build", nothing)
+    plain = RestableNetwork.of(network)
+    assert plain.compiled is None
+    values = [posture.reshape(7, 1), np.array([[0.1], [0.0], [0.1]])]
+    start = np.zeros(10)
+    runs = [
+        n.run(start, values, step=0.005, tolerance=1e-6, max_steps=300)
+        for n in (compiled, plain)
+    ]
+    assert runs[0].steps == runs[1].steps > 50
+    np.testing.assert_allclose(runs[0].state, runs[1].state, atol=1e-12)
+    assert runs[0].residual == pytest.approx(runs[1].residual, rel=1e-6)
+    assert not start.any()
+
+
+def test_the_step_is_half_of_what_is_stable(network, posture, kin):
+    """h = min(eps, eps / 2 sigma_max^2) for free modes with sigma >= 1/2."""
+    plain = RestableNetwork.of(network)
+    values = [posture.reshape(7, 1), np.zeros((3, 1))]
+    h = plain.stable_step(np.zeros(10), values)
+    jacobian = np.asarray(
+        ca.Function("J", [kin.q], [kin.jacobian()])(posture), dtype=float
+    )
+    largest = np.linalg.norm(jacobian, 2)
+    assert largest > 0.5
+    assert h == pytest.approx(min(0.01, 0.01 / (2 * largest**2)), rel=1e-6)
+    start = np.full(10, 0.01)
+    for factor, settles in ((1.8, True), (2.2, False)):
+        run = plain.run(
+            start, values, step=factor * h, tolerance=1e-9, max_steps=20_000
+        )
+        assert (run.residual <= 1e-9) is settles
+
+
+def test_the_loop_stops_at_once_when_already_at_rest(network, posture):
+    plain = RestableNetwork.of(network)
+    values = [posture.reshape(7, 1), np.zeros((3, 1))]
+    run = plain.run(np.zeros(10), values, step=0.001, tolerance=1e-12, max_steps=9)
+    assert (run.steps, run.residual) == (0, 0.0)
+
+
+def test_a_state_that_is_not_finite_stops_the_loop(network, posture):
+    plain = RestableNetwork.of(network)
+    values = [posture.reshape(7, 1), np.zeros((3, 1))]
+    run = plain.run(
+        np.full(10, np.nan), values, step=0.001, tolerance=1e-9, max_steps=100
+    )
+    assert run.steps == 0
+    assert not run.residual <= 1e-9
+
+
+def test_bad_parameters_are_named(network, posture):
+    with pytest.raises(RrnnError, match="'rd_dot' is missing"):
+        settle(network, q=posture)
+    with pytest.raises(ShapeError, match="rd_dot"):
+        settle(network, q=posture, rd_dot=[0.0])
+    with pytest.raises(NotFiniteError, match="rd_dot"):
+        settle(network, q=posture, rd_dot=[np.nan, 0.0, 0.0])
+
+
+def test_a_network_without_a_formulation_is_refused():
+    x = rr.Symbol.vector("x", 1, "1", "state")
+    bare = rr.NeuralDynamics(
+        name="bare",
+        state=x,
+        parameters=(),
+        derivative=-x.sx,
+        output=x.sx,
+        residual=x.sx,
+    )
+    with pytest.raises(RrnnError, match="formulation"):
+        settle(bare)
+
+
+def test_top_level_verb():
+    assert rr.settle is settle
