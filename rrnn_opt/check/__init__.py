@@ -5,6 +5,7 @@ bounds.  Verdicts are PROVED, REFUTED (with a witness) or UNKNOWN; samples are
 never a certificate.
 """
 
+from rrnn_opt.check.plan_file import PlanCheck, check_plan
 from rrnn_opt.check.trajectory import TrajectoryCertificate, certify_trajectory
 
-__all__ = ["TrajectoryCertificate", "certify_trajectory"]
+__all__ = ["PlanCheck", "TrajectoryCertificate", "certify_trajectory", "check_plan"]

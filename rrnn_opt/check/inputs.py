@@ -47,11 +47,12 @@ def read_targets(
     """
     if problem.get("attached"):
         raise DocumentError("problem.attached", "attached bodies cannot be judged yet")
-    entries = reading.listing(problem.get("obstacles") or [], "problem.obstacles")
+    given = problem.get("obstacles")
+    entries = reading.listing([] if given is None else given, "problem.obstacles")
     obstacles = [
         read_obstacle(e, f"problem.obstacles[{k}]") for k, e in enumerate(entries)
     ]
-    margin = reading.number(problem.get("margin") or 0.0, "problem.margin")
+    margin = reading.number(problem.get("margin", 0.0), "problem.margin")
     if margin < 0:
         raise DocumentError("problem.margin", "must not be negative")
     low, high = _extents(model, motion)
