@@ -94,42 +94,12 @@ class RestableNetwork:
         done, residual = self._loop(state, parameters, step, tolerance, max_steps)
         return Run(state, done, residual)
 
-    def stable_step(self, state: Array, parameters: Sequence[Array]) -> float:
-        """The Euler step at which the slowest-settling fast mode settles best.
-
-        A mode s of the network's Jacobian is multiplied by 1 + h s a step;
-        |1 + h s| is least at h = -Re s / |s|^2, half of what is still stable.
-        The least of these over all modes is taken.  For ``PrimalDual`` with
-        P = I the free modes solve eps^2 s^2 + eps s + sigma^2 = 0, sigma the
-        singular values of J, which gives h = eps / (2 sigma^2) for
-        sigma >= 1/2; a projected coordinate has s = -1/eps and gives h = eps.
-
-        Args:
-            state: (n,) where the network is linearised.
-            parameters: as for ``run``.
-        """
-        slope = np.asarray(self._slope(state, *parameters), dtype=np.float64)
-        modes = np.linalg.eigvals(slope)
-        size = np.abs(modes)
-        fastest = float(size.max(initial=0.0))
-        if fastest == 0.0:
-            return 1.0
-        decaying = -modes.real > 1e-6 * fastest
-        steps = -modes.real[decaying] / size[decaying] ** 2
-        return max(float(steps.min(initial=1.0 / fastest)), 1e-3 / fastest)
-
     def read(self, state: Array, parameters: Sequence[Array]) -> dict[str, Array]:
         """Output ("output") and multipliers by name at a state."""
         values = self._readout.call([state, *parameters])
         names = ["output", *self.dynamics.multipliers]
         flat = (np.asarray(v, dtype=np.float64).ravel() for v in values)
         return dict(zip(names, flat, strict=True))
-
-    @cached_property
-    def _slope(self) -> ca.Function:
-        dyn = self.dynamics
-        slope = ca.densify(ca.jacobian(dyn.derivative, dyn.state.sx))
-        return ca.Function("slope", _inputs(dyn), [slope])
 
     @cached_property
     def _readout(self) -> ca.Function:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.errors import InfeasibleQpError, RrnnError
 from rrnn_opt.formulation import Formulation
+from rrnn_opt.networks.step_size import settling_step
 from rrnn_opt.solving.network import restable
 from rrnn_opt.solving.residual import NOT_JUDGED, Array, Dense, Residual
 from rrnn_opt.solving.rest import Attempt, Job
@@ -75,7 +76,7 @@ def settle(
         tolerance: on the absolute KKT residual, largest component.
         max_steps: Euler steps in all for one choice of the step.
         step: Euler step h, s; None takes half of what is stable, from the
-            modes of the network at its start (see ``stable_step``), and less
+            modes of the network at its start (see ``settling_step``), and less
             if that diverges.
         start: (n,) state to start from; by default u is the point of the box
             nearest to zero and all multipliers are zero.
@@ -133,7 +134,7 @@ def settle_at(
     network = restable(dyn)
     begin = time.perf_counter()
     first = _start(dyn, problem, start)
-    h = network.stable_step(first, values) if step is None else step
+    h = settling_step(dyn, first, values) if step is None else step
     job = Job(network, problem, values, tolerance, max_steps)
     best = job.rest(first, h)
     if not best.status.has_point:

@@ -145,25 +145,6 @@ def test_without_a_compiler_the_interpreter_does_the_same(
     assert not start.any()
 
 
-def test_the_step_is_half_of_what_is_stable(network, posture, kin):
-    """h = min(eps, eps / 2 sigma_max^2) for free modes with sigma >= 1/2."""
-    plain = RestableNetwork.of(network)
-    values = [posture.reshape(7, 1), np.zeros((3, 1))]
-    h = plain.stable_step(np.zeros(10), values)
-    jacobian = np.asarray(
-        ca.Function("J", [kin.q], [kin.jacobian()])(posture), dtype=float
-    )
-    largest = np.linalg.norm(jacobian, 2)
-    assert largest > 0.5
-    assert h == pytest.approx(min(0.01, 0.01 / (2 * largest**2)), rel=1e-6)
-    start = np.full(10, 0.01)
-    for factor, settles in ((1.8, True), (2.2, False)):
-        run = plain.run(
-            start, values, step=factor * h, tolerance=1e-9, max_steps=20_000
-        )
-        assert (run.residual <= 1e-9) is settles
-
-
 def test_the_loop_stops_at_once_when_already_at_rest(network, posture):
     plain = RestableNetwork.of(network)
     values = [posture.reshape(7, 1), np.zeros((3, 1))]
