@@ -60,20 +60,33 @@ class Slot:
         Raises:
             ShapeError: wrong shape; as LayoutError: wrong type or order.
         """
-        if type(array) is not np.ndarray or array.shape not in self.shapes:
+        try:
+            if (
+                array.dtype is not self.dtype
+                or array.shape not in self.shapes
+                or not array.flags.f_contiguous
+            ):
+                self._refuse(array)
+        except AttributeError:  # not an array at all
+            self._refuse(array)
+        return address_of(array if self.columns == 1 else array.T)
+
+    def result(self, array: Array) -> int:
+        """As :meth:`address`, for memory that is written."""
+        address = self.address(array)
+        if not array.flags.writeable:
+            raise LayoutError(self.name, array.shape, "pass a writeable array")
+        return address
+
+    def _refuse(self, array: Array) -> None:
+        """Say what is wrong with an array, if anything is."""
+        if not isinstance(array, np.ndarray) or array.shape not in self.shapes:
             raise ShapeError(self.name, self.shapes[0], np.shape(array))
-        if array.dtype is not self.dtype and array.dtype != self.dtype:
+        if array.dtype != self.dtype:
             raise LayoutError(self.name, array.shape, f"pass dtype {self.dtype}")
         if not array.flags.f_contiguous:
             advice = "pass contiguous column-major memory (np.asfortranarray)"
             raise LayoutError(self.name, array.shape, advice)
-        return _address(array.T)
-
-    def result(self, array: Array) -> int:
-        """As :meth:`address`, for memory that is written."""
-        if type(array) is np.ndarray and not array.flags.writeable:
-            raise LayoutError(self.name, array.shape, "pass a writeable array")
-        return self.address(array)
 
     def batch(self, array: Array, count: int) -> tuple[int, int]:
         """Address and row stride [elements] of ``count`` values in a row.
@@ -91,7 +104,7 @@ class Slot:
         if not flat.flags.c_contiguous:
             advice = "pass contiguous rows, each matrix column-major"
             raise LayoutError(self.name, array.shape, advice)
-        return _address(flat), self.size
+        return address_of(flat), self.size
 
     def new_batch(self, count: int) -> Array:
         """Uninitialised results of ``count`` calls, each column-major."""
@@ -100,7 +113,7 @@ class Slot:
         return np.empty((count, self.columns, self.rows), self.dtype).swapaxes(1, 2)
 
 
-def _address(array: Array) -> int:
+def address_of(array: Array) -> int:
     """Address of a C-contiguous array; the buffer protocol is the fast way."""
     try:
         return _addressof(_from_buffer(array))  # type: ignore[arg-type]

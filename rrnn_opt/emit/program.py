@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from rrnn_opt.emit.arrays import Array, Slot
+from rrnn_opt.emit.arrays import Array, Slot, address_of
 from rrnn_opt.emit.c99 import c_function, require_identifier
 from rrnn_opt.emit.host import Built, build, load
 from rrnn_opt.emit.prologue import Real, prologue
@@ -77,17 +77,39 @@ class Program:
             ShapeError: wrong number, shape, type or memory order of arrays.
         """
         entry = self._entry(name)
-        inputs, outputs = entry.inputs, entry.outputs
-        if len(arrays) != len(inputs):
-            raise ShapeError(f"{name}: arrays", (len(inputs),), (len(arrays),))
-        results = [slot.new() for slot in outputs] if out is None else out
-        if len(results) != len(outputs):
-            raise ShapeError(f"{name}: out", (len(outputs),), (len(results),))
-        entry.one(
-            *[s.address(a) for s, a in zip(inputs, arrays, strict=True)],
-            *[s.result(a) for s, a in zip(outputs, results, strict=True)],
-        )
-        return tuple(results)
+        sources = _addresses(name, entry, arrays)
+        if out is not None:
+            entry.one(*sources, *_targets(name, entry, out))
+            return tuple(out)
+        results = tuple([slot.new() for slot in entry.outputs])
+        entry.one(*sources, *[address_of(array.T) for array in results])
+        return results
+
+    def bind(
+        self, name: str, *arrays: Array, out: Sequence[Array]
+    ) -> Callable[[], None]:
+        """Check once, call often: a function of nothing for tight Python loops.
+
+        Args:
+            name: of the function.
+            arrays: as in :meth:`call`; read anew at every call.
+            out: arrays that every call writes.
+
+        Returns:
+            A function that runs the compiled code on exactly these arrays and
+            keeps them alive.
+
+        Raises:
+            ShapeError: wrong number, shape, type or memory order of arrays.
+        """
+        entry = self._entry(name)
+        one, kept = entry.one, (arrays, tuple(out))
+        where = (*_addresses(name, entry, arrays), *_targets(name, entry, out))
+
+        def run(_kept: object = kept) -> None:
+            one(*where)
+
+        return run
 
     def map(self, name: str, *arrays: Array, n: int) -> tuple[Array, ...]:
         """Evaluate one function on ``n`` rows, in one C loop.
@@ -106,8 +128,7 @@ class Program:
             ShapeError: wrong number, shape, type or memory order of arrays.
         """
         entry = self._entry(name)
-        if len(arrays) != len(entry.inputs):
-            raise ShapeError(f"{name}: arrays", (len(entry.inputs),), (len(arrays),))
+        _require_count(f"{name}: arrays", entry.inputs, arrays)
         pairs = zip(entry.inputs, arrays, strict=True)
         where = [slot.batch(array, n) for slot, array in pairs]
         results = tuple(slot.new_batch(n) for slot in entry.outputs)
@@ -127,6 +148,21 @@ class Program:
         except KeyError:
             known = ", ".join(self.entries)
             raise RrnnError(f"program has no '{name}'; it has {known}") from None
+
+
+def _require_count(what: str, slots: Sequence[Slot], arrays: Sequence[Array]) -> None:
+    if len(arrays) != len(slots):
+        raise ShapeError(what, (len(slots),), (len(arrays),))
+
+
+def _addresses(name: str, entry: Entry, arrays: Sequence[Array]) -> list[int]:
+    _require_count(f"{name}: arrays", entry.inputs, arrays)
+    return [s.address(a) for s, a in zip(entry.inputs, arrays, strict=True)]
+
+
+def _targets(name: str, entry: Entry, out: Sequence[Array]) -> list[int]:
+    _require_count(f"{name}: out", entry.outputs, out)
+    return [s.result(a) for s, a in zip(entry.outputs, out, strict=True)]
 
 
 def compile(

@@ -111,6 +111,20 @@ def test_wrong_counts_and_names_are_refused(program, q, matrix):
         program.call("part", q)
 
 
+def test_a_bound_call_reads_and_writes_the_same_arrays(program, q, matrix):
+    out = [np.zeros(s, order="F") for s in [(3,), (7,), (7, 3), (1,), (0, 0)]]
+    run = program.bind("parts", q, matrix, np.array([2.0]), out=out)
+    for k in range(3):
+        q[:] = np.linspace(-1, k, 7)
+        run()
+        np.testing.assert_allclose(out[0], matrix @ q, rtol=1e-14, atol=1e-14)
+        np.testing.assert_allclose(out[1], 2 * np.sin(q), rtol=1e-15)
+    with pytest.raises(ShapeError, match="q: expected"):
+        program.bind("parts", q[:6], matrix, np.array([2.0]), out=out)
+    with pytest.raises(ShapeError, match="parts: out"):
+        program.bind("parts", q, matrix, np.array([2.0]), out=out[:2])
+
+
 def test_map_runs_over_rows(program, matrix):
     rows = np.random.default_rng(0).normal(size=(50, 7))
     v, w, t, r, _ = program.map("parts", rows, matrix, np.arange(50.0)[:, None], n=50)
