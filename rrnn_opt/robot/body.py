@@ -65,7 +65,9 @@ def collision_body(robot: Robot, urdf: Urdf, spheres: str | Path | None) -> Robo
 def _from_file(robot: Robot, urdf: Urdf, spheres: str | Path) -> Robot:
     file = read_sphere_file(spheres)
     frames = {frame.name: frame for frame in robot.frames}
-    unknown = sorted(set(file.links) - set(frames))
+    unknown = [
+        link for link, balls in file.links.items() if balls and link not in frames
+    ]
     if unknown:
         message = f"the sphere file {spheres} names '{unknown[0]}', not a link of it"
         raise RobotError(urdf.path, message)

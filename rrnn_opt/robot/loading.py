@@ -43,6 +43,7 @@ ACCELERATION = {  # rad/s2; Franka's FCI limits of the Panda
     f"panda_joint{i + 1}": value
     for i, value in enumerate((15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0))
 }
+UNIT = 1e-9  # how far the length of an axis may be from one
 _stderr = threading.Lock()
 
 
@@ -97,7 +98,7 @@ def from_urdf(
     model = _model(urdf)
     whole = _whole(model, urdf.path)
     held = {name: float(value) for name, value in (locked or {}).items()}
-    end = _default_tip(whole, urdf) if tip is None else tip
+    end = _default_tip(whole, urdf, held) if tip is None else tip
     robot = restrict(whole, tip=end, locked=held, mimic=urdf.mimic)
     source = f"{urdf.path}{_assumed(model, robot)}"
     named = replace(robot, name=urdf.name, source=source)
@@ -123,9 +124,14 @@ def from_pinocchio(model: Any, *, tip: str | None = None) -> Robot:
     return replace(whole, source=f"pinocchio model{_assumed(model, whole)}")
 
 
-def _default_tip(whole: Robot, urdf: Urdf) -> str:
-    carried = [link for link in urdf.leaves if whole.frame(link).joint != BASE]
-    return carried[-1] if carried else urdf.leaves[-1]
+def _default_tip(whole: Robot, urdf: Urdf, held: Mapping[str, float]) -> str:
+    """The last leaf with a joint on the way that is neither held nor mimics."""
+    led = {*held, *urdf.mimic}
+    for leaf in reversed(urdf.leaves):
+        way = whole.tree.ancestors(whole.frame(leaf).joint)
+        if any(whole.joint_names[k] not in led for k in way):
+            return leaf
+    return urdf.leaves[-1]
 
 
 def _model(urdf: Urdf) -> Any:
@@ -179,6 +185,8 @@ def _joint(model: Any, k: int, source: str) -> tuple[str, Array]:
         joint.calc(data, np.eye(joint.nq)[0])
         subspace = np.asarray(data.S, dtype=float).reshape(6)
         linear, angular = subspace[:3], subspace[3:]
+        if not abs(np.linalg.norm(subspace) - 1.0) < UNIT:
+            raise RobotError(source, f"joint '{model.names[k]}' has no unit axis")
         if not np.any(linear):
             return (CONTINUOUS if joint.nq == 2 else REVOLUTE), angular
         if not np.any(angular):

@@ -241,11 +241,10 @@ class Robot:
 
     @staticmethod
     def from_pinocchio(model: Any, *, tip: str | None = None) -> Robot:
-        """All joints of a ``pin.Model`` as a tree; no attribute is hung on it.
+        """All joints of a ``pin.Model`` as a tree.
 
         Raises:
-            RobotError: the model has a joint type other than revolute,
-                continuous or prismatic, or no frame ``tip``.
+            RobotError: a joint of another type, or no frame ``tip``.
         """
         from rrnn_opt.robot.loading import from_pinocchio
 

@@ -72,7 +72,7 @@ def pin_pose_jacobian(model, values, frame):
     data = model.createData()
     q = pin_configuration(model, values)
     pin.framesForwardKinematics(model, data, q)
-    index = model.getFrameId(frame)
+    index = model.getFrameId(frame, pin.FrameType.BODY)
     full = pin.computeFrameJacobian(
         model, data, q, index, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
     )

@@ -15,13 +15,13 @@ def _outside(points, cover):
     return float(np.max(np.min(gaps, axis=1) - cover.radius))
 
 
-def _surface(cover, count=4000):
+def _surface(cover, count=1000):
     """Points on the spheres of a cover."""
     return (cover.centers[:, None] + cover.radius * _directions(count)).reshape(-1, 3)
 
 
 def _capsule_points(a, b, radius):
-    share = np.linspace(0, 1, 400)[:, None, None]
+    share = np.linspace(0, 1, 200)[:, None, None]
     axis = a + share * (b - a)
     return (axis + radius * _directions(300)).reshape(-1, 3)
 
