@@ -10,7 +10,7 @@ from rrnn_opt.errors import NotFiniteError, RrnnError, ShapeError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.robot import Kinematics
-from rrnn_opt.symbolic import Symbol
+from rrnn_opt.symbolic import Symbol, require_shape
 
 _CITATION = (
     "Y. Li, S. Li, B. Hannaford, IEEE Trans. Industrial Informatics "
@@ -66,13 +66,15 @@ def minimum_velocity(
     u = Symbol.vector("u", nv, "rad/s or m/s", "joint velocity")
     q = Symbol("q", kin.q, "rad or m", "joint positions")
     rd_dot = Symbol.vector("rd_dot", 3, "m/s", "desired velocity of the frame")
+    J = kin.jacobian(frame)
+    require_shape(J, (3, nv), "Jacobian")
     lower, upper = velocity_bounds(kin.q, kin.robot.limits, c1=c1, c2=c2)
     return Formulation(
         name="minimum_velocity",
         decision=u,
         parameters=(q, rd_dot),
         cost=_cost(u.sx, W, c),
-        equalities=rd_dot.sx - kin.jacobian(frame) @ u.sx,
+        equalities=rd_dot.sx - J @ u.sx,
         lower=lower,
         upper=upper,
         citation=_CITATION,

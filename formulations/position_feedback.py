@@ -8,7 +8,7 @@ from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.robot import Kinematics
-from rrnn_opt.symbolic import Symbol
+from rrnn_opt.symbolic import Symbol, require_shape
 
 _CITATION = (
     "Y. Li, S. Li, B. Hannaford, IEEE Trans. Industrial Informatics "
@@ -64,8 +64,10 @@ def position_feedback(
     u = Symbol.vector("u", kin.robot.nv, "rad/s or m/s", "joint velocity")
     q = Symbol("q", kin.q, "rad or m", "joint positions")
     rd = Symbol.vector("rd", 3, "m", "target position of the frame")
-    error = rd.sx - kin.position(frame)
-    attraction = kin.jacobian(frame).T @ (error / epsilon)
+    J, r = kin.jacobian(frame), kin.position(frame)
+    require_shape(J, (3, kin.robot.nv), "Jacobian")
+    require_shape(r, (3, 1), "position")
+    attraction = J.T @ ((rd.sx - r) / epsilon)
     lower, upper = velocity_bounds(kin.q, kin.robot.limits, c1=c1, c2=c2)
     return Formulation(
         name="position_feedback",
