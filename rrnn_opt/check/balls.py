@@ -137,7 +137,7 @@ def _sign(value: Number) -> int:
 def _text(value: Number) -> str:
     if isinstance(value, flint.fmpq):
         return str(value)
-    return str(value.str(20, radius=True))
+    return str(value.str(17, more=True))
 
 
 def _decided(true: bool, false: bool) -> Number:

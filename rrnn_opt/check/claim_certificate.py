@@ -3,8 +3,7 @@
 A certificate is a JSON document::
 
     {"kind": "rrnn_opt claim certificate", "schema": 1,
-     "claim": {"id", "source", "statement", "fingerprint",
-               "order", "jacobian",
+     "claim": {"id", "source", "statement", "fingerprint", "order", "jacobian",
                "inputs": [[name, [rows, columns]], ...],
                "outputs": [...],          goal, then hypotheses with a relation
                "tape": [[op, out, [args], constant as hex float, slot], ...],
@@ -15,12 +14,10 @@ A certificate is a JSON document::
      "witness": {variable: ["p/q", ...]} or null,
      "status", "trust", "assumptions", "versions"}   what the finder says
 
-Whatever the finder says, the verdict is found again here from the tape alone:
-
-* identity: the normal form of every element of the goal is 0;
-* terms: every term of it has one sign on the domain;
-* replay: at the witness, which lies in the domain and keeps the hypotheses,
-  the goal is certainly broken.
+The verdict is found again here from the tape alone.  identity: the normal form
+of every element of the goal is 0.  terms: every term of it has one sign on the
+domain.  replay: at the witness, which lies in the domain and keeps the
+hypotheses, the goal is certainly broken.
 """
 
 from __future__ import annotations
@@ -31,6 +28,8 @@ from dataclasses import InitVar, dataclass
 from fractions import Fraction
 from importlib import metadata
 from typing import Any, NoReturn, final
+
+from flint import arb
 
 from rrnn_opt.check.balls import replay
 from rrnn_opt.check.claim_document import (
@@ -78,11 +77,11 @@ class CheckedCertificate:
         """
         if seal is not _SEAL:
             raise RrnnError(
-                "a verdict is made by check_certificate; give it a document"
+                "only check_certificate makes a verdict: give it a document"
             )
 
     def __reduce__(self) -> NoReturn:
-        """A copy could be altered: pass the document on and check it again."""
+        """Copies could be altered: pass the document on and check it again."""
         raise RrnnError("a checked certificate is not copied; send its document")
 
     @property
@@ -173,9 +172,11 @@ def _identity(graph: ClaimGraph, data: Any, text: str) -> CheckedCertificate:
     left = {slot: p for slot, p in forms.results.items() if p != 0}
     if left:
         (_, element), polynomial = min(left.items())
+        largest = arb(max(abs(c) for c in polynomial.coeffs())).str(2, radius=False)
         raise UndecidedError(
             f"{len(left)} of {graph.outputs[0].size} elements do not vanish; element"
-            f" {element} keeps {len(polynomial)} terms"
+            f" {element} keeps {len(polynomial)} terms, the largest coefficient"
+            f" {largest}"
         )
     return _proved(forms, "the normal form is identically 0", text)
 

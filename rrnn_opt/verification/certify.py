@@ -22,6 +22,10 @@ def certify(
 ) -> Verdict:
     """Prove a claim, refute it, or say why neither was possible.
 
+    The claim speaks of its expression graph, over the real numbers: doubles
+    are the rationals that they are, and what CasADi simplified while the graph
+    was built (``x / x`` to 1) is not part of it.
+
     The engines, in order: exact identity, signs of terms, the given witnesses,
     and a seeded search for a witness.  Each only proposes a certificate; the
     verdict is the independent checker's.
@@ -40,9 +44,10 @@ def certify(
             finite.
     """
     begin = time.perf_counter()
-    fingerprint = claim.fingerprint
+    fingerprint = ""
     residue: dict[str, str] = {}
     try:
+        fingerprint = claim.fingerprint
         for engine, document in _proposals(claim, witnesses, seed):
             checked = check_certificate(document)
             if checked.status != UNKNOWN:

@@ -1,7 +1,8 @@
 """A seeded search for points that break a claim.
 
 What it finds are candidates in floating point, worst first.  They prove
-nothing until the checker has replayed them.
+nothing until the checker has replayed them.  A breach no larger than rounding
+is not offered: it speaks of the constants' last bits.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ Point = dict[str, list[Fraction]]
 _WIDTH = 4.0  # half the spread of a variable without bounds
 _STEPS = (0.5, 0.1, 0.02)
 _DENOMINATORS = (1, 4, 64)
+_NOISE = 1e-9  # what floating point may break by rounding alone
+_NEAR = 0.05  # a strict goal breaks where it is 0: perhaps at a rounded neighbour
 
 
 def candidates(
@@ -39,13 +42,15 @@ def candidates(
     """
     rng = np.random.default_rng(seed)
     score = _Score(claim)
+    threshold = -_NEAR if claim.goal.strict else _NOISE
     lower, upper = _box(claim)
     points = [_draw(rng, lower, upper) for _ in range(samples)]
     points.sort(key=score, reverse=True)
     for start in points[:starts]:
         best = _improved(start, score, rng, lower, upper)
-        if score(best) > 0.0:
-            yield from _simpler(claim, best, lower, upper)
+        for point in _simpler(best, lower, upper):
+            if score(point) > threshold:
+                yield _named(claim, point)
 
 
 class _Score:
@@ -115,11 +120,10 @@ def _improved(
     return best
 
 
-def _simpler(claim: Claim, point: Array, lower: Array, upper: Array) -> Iterator[Point]:
+def _simpler(point: Array, lower: Array, upper: Array) -> Iterator[Array]:
     for denominator in _DENOMINATORS:
-        rounded = np.clip(np.round(point * denominator) / denominator, lower, upper)
-        yield _named(claim, rounded)
-    yield _named(claim, point)
+        yield np.clip(np.round(point * denominator) / denominator, lower, upper)
+    yield point
 
 
 def _named(claim: Claim, point: Array) -> Point:
