@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rrnn_opt.robot.robot import Frame, JointTree, Limits, Robot, Sphere
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import Frame, JointTree, Limits, Sphere
 
 if TYPE_CHECKING:
     from rrnn_opt.robot.kinematics import Kinematics

@@ -18,8 +18,9 @@ import numpy as np
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.cover import Cover, cover_box, cover_cylinder
 from rrnn_opt.robot.placement import apply, compose, shift, turn
-from rrnn_opt.robot.robot import Array, Robot
+from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.sphere_file import checked_pairs, placed_spheres, read_sphere_file
+from rrnn_opt.robot.tree import Array
 from rrnn_opt.robot.urdf import Primitive, Urdf
 
 INFLATION = 0.01  # m, wanted of the covers of cylinders' sides and boxes

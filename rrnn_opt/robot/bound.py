@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.errors import RobotError
-from rrnn_opt.robot.robot import BASE, PRISMATIC, Array, Robot
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import BASE, PRISMATIC, Array
 
 _ROUND_UP = 1.0 + 1e-13
 

@@ -13,7 +13,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rrnn_opt.robot.robot import Array
+from rrnn_opt.robot.tree import Array
 
 _ROUNDING = 1e-12  # m, added to every radius: far above the rounding of a sum
 

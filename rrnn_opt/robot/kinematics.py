@@ -17,7 +17,8 @@ import casadi as ca
 import numpy as np
 
 from rrnn_opt.errors import ShapeError
-from rrnn_opt.robot.robot import BASE, PRISMATIC, Array, Frame, Robot
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import BASE, PRISMATIC, Array, Frame
 
 POSITION, POSE = "position", "pose"
 

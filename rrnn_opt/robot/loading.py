@@ -22,7 +22,8 @@ import numpy as np
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.body import collision_body
 from rrnn_opt.robot.restrict import restrict
-from rrnn_opt.robot.robot import (
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import (
     BASE,
     CONTINUOUS,
     PRISMATIC,
@@ -31,8 +32,8 @@ from rrnn_opt.robot.robot import (
     Frame,
     JointTree,
     Limits,
-    Robot,
     frozen,
+    indices,
 )
 from rrnn_opt.robot.urdf import Urdf, read_urdf
 
@@ -154,7 +155,7 @@ def _whole(model: Any, source: str) -> Robot:
         len(types),
         [model.jointPlacements[k + 1] for k in range(len(types))],
     )
-    own = np.arange(n, dtype=np.int64)
+    own = indices(range(n))
     frames = tuple(_frames(model))
     poses = [pose.homogeneous for pose in placements]
     if not all(np.all(np.isfinite(pose)) for pose in poses):
@@ -163,7 +164,7 @@ def _whole(model: Any, source: str) -> Robot:
         name=str(model.name),
         joint_names=tuple(model.names)[1:],
         tree=JointTree(
-            parents=np.array([p - 1 for p in list(model.parents)[1:]], dtype=np.int64),
+            parents=indices([parent - 1 for parent in list(model.parents)[1:]]),
             types=types,
             placements=frozen(poses if n else np.zeros((0, 4, 4)), (n, 4, 4), "poses"),
             axes=frozen([a for _, a in joints] or np.zeros((0, 3)), (n, 3), "axes"),

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rrnn_opt.robot.robot import Array
+from rrnn_opt.robot.tree import Array
 
 _QUARTER = {0: (1.0, 0.0), 1: (0.0, 1.0), 2: (-1.0, 0.0), 3: (0.0, -1.0)}
 

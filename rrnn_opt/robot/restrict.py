@@ -8,15 +8,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rrnn_opt.errors import RobotError
-from rrnn_opt.robot.robot import (
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import (
     BASE,
     PRISMATIC,
     Array,
     Frame,
     JointTree,
     Limits,
-    Robot,
     frozen,
+    indices,
 )
 from rrnn_opt.robot.urdf import Mimic
 
@@ -147,11 +148,11 @@ def _tree(
     used = [drives[whole.joint_names[k]] for k in kept]
     poses = [p @ old.placements[k] for (_, p), k in zip(held, kept, strict=True)]
     return JointTree(
-        parents=np.array([joint for joint, _ in held], dtype=np.int64),
+        parents=indices([joint for joint, _ in held]),
         types=tuple(old.types[k] for k in kept),
         placements=frozen(poses, (n, 4, 4), "placements"),
         axes=frozen(old.axes[kept], (n, 3), "axes"),
-        source=np.array([moving.index(str(d.source)) for d in used], dtype=np.int64),
+        source=indices([moving.index(str(d.source)) for d in used]),
         multiplier=frozen([d.multiplier for d in used], (n,), "multiplier"),
         offset=frozen([d.offset for d in used], (n,), "offset"),
     )

@@ -12,15 +12,17 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.errors import RobotError, ShapeError
-from rrnn_opt.robot.robot import (
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import (
     JOINT_TYPES,
     Array,
     Frame,
+    Index,
     JointTree,
     Limits,
-    Robot,
     Sphere,
     frozen,
+    indices,
 )
 
 
@@ -124,13 +126,14 @@ def _carrier(joint: Any, nj: int) -> int:
     return int(joint)
 
 
-def _integers(values: Any, n: int, name: str, fits: Callable[[int, int], bool]) -> Any:
-    array = np.array(values, dtype=np.int64)
+def _integers(
+    values: Any, n: int, name: str, fits: Callable[[int, int], bool]
+) -> Index:
+    array = indices(values)
     if array.shape != (n,):
         raise ShapeError(name, (n,), array.shape)
     if not all(fits(k, int(value)) for k, value in enumerate(array)):
         raise ValueError(f"{name} has an index out of range")
-    array.flags.writeable = False
     return array
 
 

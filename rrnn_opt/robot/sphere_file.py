@@ -20,7 +20,7 @@ import numpy as np
 
 from rrnn_opt.errors import RobotError, ShapeError
 from rrnn_opt.robot.placement import apply
-from rrnn_opt.robot.robot import Array, Frame, Sphere, frozen
+from rrnn_opt.robot.tree import Array, Frame, Sphere, frozen
 
 LinkPair = frozenset[str]
 

@@ -5,9 +5,12 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 from types import SimpleNamespace
 
+import casadi as ca
 import numpy as np
 import pinocchio as pin
 import pytest
+
+from rrnn_opt.robot import Kinematics
 
 KIND_LIMIT = '<limit lower="{}" upper="{}" velocity="{}" effort="1"/>'
 
@@ -107,6 +110,35 @@ def postures(robot, count, seed=0):
     return rng.uniform(lower, upper, (count, robot.nv))
 
 
+def pin_values(robot, q, couplings, locked):
+    """Value of every joint of the file, mimic joints resolved one by one."""
+    values = {**locked, **dict(zip(robot.joint_names, q, strict=True))}
+    for _ in couplings:
+        for name, (source, multiplier, offset) in couplings.items():
+            if name not in locked:
+                values[name] = multiplier * values.get(source, 0.0) + offset
+    return values
+
+
+def agrees(robot, path, *, locked=None, count=3):
+    model = pin.buildModelFromUrdf(str(path))
+    couplings = mimic_couplings(path)
+    kin = Kinematics(robot)
+    both = [kin.pose(), kin.jacobian(kind="pose")]
+    evaluate = ca.Function("both", [kin.q], both)
+    for q in postures(robot, count):
+        values = pin_values(robot, q, couplings, locked or {})
+        want, columns = pin_pose_jacobian(model, values, robot.tip)
+        pose, jacobian = (np.array(value) for value in evaluate(q))
+        assert np.abs(pose - want).max() <= 1e-12
+        expected = np.stack([columns[name] for name in robot.joint_names], axis=1)
+        for name, (source, multiplier, _) in couplings.items():
+            if source in robot.joint_names and name not in robot.joint_names:
+                i = robot.joint_names.index(source)
+                expected[:, i] += multiplier * columns[name]
+        assert np.abs(jacobian - expected).max() <= 1e-12
+
+
 @pytest.fixture(scope="session")
 def oracle():
     return SimpleNamespace(
@@ -115,7 +147,46 @@ def oracle():
         pin_pose_jacobian=pin_pose_jacobian,
         mimic_couplings=mimic_couplings,
         postures=postures,
+        agrees=agrees,
+        pin_values=pin_values,
+        branched_text=BRANCHED,
     )
+
+
+BRANCHED = """<robot name="branched">
+<link name="base"><collision><geometry><box size="0.2 0.2 0.1"/></geometry></collision>
+</link>
+<link name="arm"><collision><origin xyz="0 0 0.25" rpy="0 0.3 0"/>
+<geometry><cylinder radius="0.05" length="0.5"/></geometry></collision></link>
+<link name="hand"><collision><geometry><sphere radius="0.06"/></geometry></collision>
+</link>
+<link name="finger"><collision><geometry><mesh filename="a.stl"/></geometry></collision>
+</link>
+<link name="thumb"/><link name="camera"/>
+<joint name="turn" type="revolute"><parent link="base"/><child link="arm"/>
+<origin xyz="0 0 0.1" rpy="0 0.2 0"/><axis xyz="0 1 1"/>
+<limit lower="-2" upper="2" velocity="0" effort="1"/></joint>
+<joint name="lift" type="prismatic"><parent link="arm"/><child link="hand"/>
+<origin xyz="0.1 0 0.5" rpy="0.1 0 0"/><axis xyz="0 0 1"/>
+<limit lower="0" upper="0.3" velocity="0.2" effort="1"/></joint>
+<joint name="grip" type="revolute"><parent link="hand"/><child link="finger"/>
+<origin xyz="0.02 0 0.1"/><axis xyz="1 0 0"/>
+<limit lower="0" upper="1" velocity="1" effort="1"/></joint>
+<joint name="oppose" type="revolute"><parent link="finger"/><child link="thumb"/>
+<origin xyz="0 0 0.05"/><axis xyz="1 0 0"/>
+<limit lower="-1" upper="1" velocity="1" effort="1"/>
+<mimic joint="turn" multiplier="-0.5" offset="0.1"/></joint>
+<joint name="pan" type="continuous"><parent link="base"/><child link="camera"/>
+<origin xyz="0 0.1 0.2"/><axis xyz="0 0 1"/><limit velocity="20000" effort="1"/>
+<mimic joint="grip" multiplier="2" offset="0.3"/></joint>
+</robot>"""
+
+
+@pytest.fixture
+def branched(tmp_path):
+    path = tmp_path / "branched.urdf"
+    path.write_text(BRANCHED)
+    return path
 
 
 @pytest.fixture(scope="session")

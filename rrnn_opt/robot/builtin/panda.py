@@ -17,8 +17,9 @@ import numpy as np
 
 from rrnn_opt.robot.builtin.parts import chain, frame, limits
 from rrnn_opt.robot.placement import compose, shift, turn
-from rrnn_opt.robot.robot import Array, Frame, Robot
+from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.sphere_file import SphereFile, checked_pairs, placed_spheres
+from rrnn_opt.robot.tree import Array, Frame
 
 VELOCITY = (2.175,) * 4 + (2.61,) * 3  # rad/s
 ACCELERATION = (15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0)  # rad/s2

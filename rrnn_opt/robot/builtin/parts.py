@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rrnn_opt.robot.cover import Cover
-from rrnn_opt.robot.robot import (
+from rrnn_opt.robot.tree import (
     REVOLUTE,
     Array,
     Frame,
@@ -16,6 +16,7 @@ from rrnn_opt.robot.robot import (
     Limits,
     Sphere,
     frozen,
+    indices,
 )
 
 
@@ -35,15 +36,12 @@ def chain(
         The tree.
     """
     n = len(placements)
-    integers = np.arange(n, dtype=np.int64)
-    parents = integers - 1
-    integers.flags.writeable = parents.flags.writeable = False
     return JointTree(
-        parents=parents,
+        parents=indices(range(-1, n - 1)),
         types=tuple(types or [REVOLUTE] * n),
         placements=frozen(placements, (n, 4, 4), "placements"),
         axes=frozen(axes, (n, 3), "axes"),
-        source=integers,
+        source=indices(range(n)),
         multiplier=frozen(np.ones(n), (n,), "multiplier"),
         offset=frozen(np.zeros(n), (n,), "offset"),
     )

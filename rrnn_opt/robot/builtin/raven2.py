@@ -14,7 +14,8 @@ import numpy as np
 from rrnn_opt.robot.builtin.parts import chain, frame, inflations, limits, spheres
 from rrnn_opt.robot.cover import cover_capsule
 from rrnn_opt.robot.placement import compose, shift, turn
-from rrnn_opt.robot.robot import PRISMATIC, REVOLUTE, Array, Robot
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import PRISMATIC, REVOLUTE, Array
 
 SHAFT, WRIST = 0.47, 0.013  # m: -d4, and from the wrist to the grasper's axis
 RADIUS = 0.005  # m, of shaft and wrist, chosen by us
