@@ -7,19 +7,21 @@ the box's middle, or handed to both halves of the box.  Nothing is sampled.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from rrnn_opt.check.boxes import Boxes, Index, Poses, joint_pieces, poses
+from rrnn_opt.check.boxes import Boxes, Poses, joint_pieces, poses
 from rrnn_opt.check.hermite import Pieces
 from rrnn_opt.check.model import Model
 from rrnn_opt.check.reading import Array
 from rrnn_opt.check.targets import Target
+from rrnn_opt.check.worklist import Batch, Ledger, Work, divide, whole
 
 PROVED, REFUTED, UNKNOWN = "PROVED", "REFUTED", "UNKNOWN"
-CHUNK = 256
+CHECKS_A_BOX = 100
+"""Rows allowed for each box of the budget."""
 DEEPEST = 48
 DEEPEST_FOR_CLEARANCE = 10
 
@@ -60,35 +62,6 @@ class Outcome:
     boxes: int
 
 
-@dataclass
-class _Ledger:
-    """What is known so far, over all chunks."""
-
-    proved: float = np.inf
-    nearest: float = np.inf
-    undecided: bool = False
-    checks: int = 0
-    boxes: int = 0
-    witness: dict[str, Any] | None = None
-
-
-@dataclass
-class _Work:
-    """Undecided (box, pair) rows of one target, with bounds shown so far."""
-
-    target: Target
-    box: Index
-    pair: Index
-    shown: Array
-    d: Array = field(default_factory=lambda: np.zeros(0))
-    n: Array = field(default_factory=lambda: np.zeros((0, 3)))
-
-    def keep(self, chosen: Any) -> None:
-        """Drop all rows but the chosen ones."""
-        self.box, self.pair = self.box[chosen], self.pair[chosen]
-        self.shown, self.d, self.n = self.shown[chosen], self.d[chosen], self.n[chosen]
-
-
 @dataclass(frozen=True, eq=False)
 class Motion:
     """A timed motion in the checker's own terms.
@@ -115,57 +88,51 @@ def prove_free(
         motion: rows and cubics.
         effort: limits and tolerances.
     """
-    ledger, joint = _Ledger(), joint_pieces(model, motion.pieces)
+    ledger, joint = Ledger(), joint_pieces(model, motion.pieces)
     live = [target for target in targets if target.count]
-    for first in range(0, len(motion.pieces.h) if live else 0, CHUNK):
-        last = min(first + CHUNK, len(motion.pieces.h))
-        _chunk(model, live, (motion, joint), (first, last), effort, ledger)
-        if ledger.witness is not None:
-            break
-    verdict = PROVED
+    stack = whole(live, len(motion.pieces.h), motion.pieces)
+    while stack and ledger.witness is None:
+        batch = stack.pop()
+        left = _look(batch, poses(model, joint, batch.boxes), motion, effort, ledger)
+        if not left or ledger.witness is not None:
+            continue
+        if batch.depth >= DEEPEST or _spent(ledger, effort):
+            _give_up(left, effort, ledger)
+        else:
+            stack += divide(batch, left)
+    verdict = UNKNOWN if ledger.undecided else PROVED
     if ledger.witness is not None:
         verdict = REFUTED
-    elif ledger.undecided:
-        verdict = UNKNOWN
     shown = ledger.proved if verdict == PROVED and live else None
     return Outcome(verdict, shown, ledger.witness, ledger.checks, ledger.boxes)
 
 
-def _chunk(
-    model: Model,
-    targets: Sequence[Target],
-    motions: tuple[Motion, Pieces],
-    span: tuple[int, int],
-    effort: Effort,
-    ledger: _Ledger,
-) -> None:
-    motion, joint = motions
-    boxes = Boxes.whole(motion.pieces, *span)
-    work = [_everything(target, len(boxes.half)) for target in targets]
-    for depth in range(DEEPEST):
-        now = poses(model, joint, boxes)
-        _measure(work, now, ledger)
-        ledger.boxes += len(boxes.half)
-        ledger.witness = _witness(work, boxes, motion, effort)
-        if ledger.witness is not None:
-            return
-        work = _sift(work, now, effort, ledger, depth < DEEPEST_FOR_CLEARANCE)
-        if not work or ledger.boxes >= effort.max_boxes:
-            break
-        boxes, work = _divide(boxes, work)
-    for item in work:  # budget or depth spent: some may be good enough
+def _spent(ledger: Ledger, effort: Effort) -> bool:
+    many = ledger.checks >= CHECKS_A_BOX * effort.max_boxes
+    return many or ledger.boxes >= effort.max_boxes
+
+
+def _give_up(left: list[Work], effort: Effort, ledger: Ledger) -> None:
+    """No further division: what was shown so far may be enough or not."""
+    for item in left:
         enough = item.shown >= item.target.required + effort.slack
         ledger.undecided |= not bool(np.all(enough))
         ledger.proved = min(ledger.proved, float(item.shown.min()))
 
 
-def _everything(target: Target, n: int) -> _Work:
-    box = np.repeat(np.arange(n), target.count)
-    pair = np.tile(np.arange(target.count), n)
-    return _Work(target, box, pair, np.full(len(box), -np.inf))
+def _look(
+    batch: Batch, now: Poses, motion: Motion, effort: Effort, ledger: Ledger
+) -> list[Work]:
+    """Refute or prove what one look at the boxes can; the rest is returned."""
+    ledger.boxes += len(batch.boxes.half)
+    _measure(batch.work, now, ledger)
+    ledger.witness = _witness(batch.work, batch.boxes, motion, effort)
+    if ledger.witness is not None:
+        return []
+    return _sift(batch.work, now, effort, ledger, batch.depth < DEEPEST_FOR_CLEARANCE)
 
 
-def _measure(work: list[_Work], now: Poses, ledger: _Ledger) -> None:
+def _measure(work: list[Work], now: Poses, ledger: Ledger) -> None:
     for item in work:
         item.d, item.n = item.target.distance(now, item.box, item.pair)
         ledger.checks += len(item.d)
@@ -173,7 +140,7 @@ def _measure(work: list[_Work], now: Poses, ledger: _Ledger) -> None:
 
 
 def _witness(
-    work: list[_Work], boxes: Boxes, motion: Motion, effort: Effort
+    work: list[Work], boxes: Boxes, motion: Motion, effort: Effort
 ) -> dict[str, Any] | None:
     """The worst collision among the middles, or None."""
     worst, found = -effort.slack, None
@@ -199,8 +166,8 @@ def _witness(
 
 
 def _sift(
-    work: list[_Work], now: Poses, effort: Effort, ledger: _Ledger, tighten: bool
-) -> list[_Work]:
+    work: list[Work], now: Poses, effort: Effort, ledger: Ledger, tighten: bool
+) -> list[Work]:
     """Prove what can be proved; what is left goes to both halves."""
     near = ledger.nearest
     wish = near - max(effort.resolution, 0.1 * abs(near)) if tighten else -np.inf
@@ -219,19 +186,8 @@ def _sift(
     return left
 
 
-def _settle(item: _Work, need: float, ledger: _Ledger) -> None:
+def _settle(item: Work, need: float, ledger: Ledger) -> None:
     done = item.shown >= need
     if done.any():
         ledger.proved = min(ledger.proved, float(item.shown[done].min()))
         item.keep(~done)
-
-
-def _divide(boxes: Boxes, work: list[_Work]) -> tuple[Boxes, list[_Work]]:
-    chosen = np.unique(np.concatenate([item.box for item in work]))
-    rank = np.zeros(len(boxes.half), dtype=np.int64)
-    rank[chosen] = np.arange(len(chosen))
-    for item in work:
-        item.box = (2 * rank[item.box][:, None] + np.array([0, 1])).ravel()
-        item.pair = np.repeat(item.pair, 2)
-        item.shown = np.repeat(item.shown, 2)
-    return boxes.halves(chosen), work
