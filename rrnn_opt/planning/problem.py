@@ -32,7 +32,7 @@ class Problem:
     Attributes:
         robot: the arm; its tip is ``frame``.
         start: joint values, (nv,), rad or m; inside the limits.
-        goals: one or more; any will do.
+        goals: one or more; any will do (a single one need not be a tuple).
         scene: the obstacles.
         margin: clearance to keep from obstacles, m, zero or more.
         frame: frame that tip goals speak of; the robot's tip without one.
@@ -60,7 +60,7 @@ class Problem:
     def __post_init__(self) -> None:
         checked: dict[str, Any] = {
             "start": fields.vector(self.start, self.robot.nv, "start"),
-            "goals": tuple(self.goals),
+            "goals": _goals(self.goals),
             "margin": fields.not_negative(self.margin, "margin"),
             "frame": _frame(self.robot, self.frame),
             "robot_ref": self.robot_ref or self.robot.name,
@@ -184,6 +184,11 @@ def _refuse_attached(data: object) -> None:
         raise ProblemError("attached", message)
 
 
+def _goals(given: object) -> tuple[Any, ...]:
+    """A tuple of what may be one goal or several."""
+    return tuple(given) if isinstance(given, list | tuple) else (given,)
+
+
 def _frame(robot: Robot, name: str) -> str:
     try:
         return robot.frame(name or None).name
@@ -221,6 +226,9 @@ def _require_goals(robot: Robot, goals: tuple[Goal, ...]) -> None:
     if not goals:
         raise ProblemError("goal", "needs at least one goal")
     for index, goal in enumerate(goals):
+        if not isinstance(goal, Goal):
+            message = f"expected a JointGoal or TipGoal, got {fields.shown(goal)}"
+            raise ProblemError(goal_name(index, len(goals)), message)
         if isinstance(goal, JointGoal):
             name = f"{goal_name(index, len(goals))}.joints"
             fields.vector(goal.joints, robot.nv, name)

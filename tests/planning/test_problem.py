@@ -281,6 +281,9 @@ def test_built_in_python():
     assert (problem.frame, problem.robot_ref, problem.margin) == ("tip", "one", 0.0)
     assert isinstance(problem.goals, tuple)
     assert not problem.start.flags.writeable
+    assert Problem(problem.robot, [0], goals=goals[0]).goals == (goals[0],)
+    with pytest.raises(ProblemError, match="goal: expected a JointGoal or TipGoal"):
+        Problem(problem.robot, [0], goals=[{"joints": [0]}])
 
 
 def test_files_are_sought_beside_the_problem_file(tmp_path, monkeypatch):
