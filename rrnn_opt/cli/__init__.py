@@ -1,1 +1,1 @@
-"""TODO-DOC cli."""
+"""The command line ``rrnn``: one file a command; only this room prints."""

@@ -7,13 +7,17 @@ is computed that a verdict could rest on.
 from rrnn_opt.report.files import write_bytes, write_text
 from rrnn_opt.report.page import write_page
 from rrnn_opt.report.picture import draw_plan
+from rrnn_opt.report.plan_files import write_plan
 from rrnn_opt.report.tables import check_line, table
+from rrnn_opt.report.tracking import draw_tracking
 
 __all__ = [
     "check_line",
     "draw_plan",
+    "draw_tracking",
     "table",
     "write_bytes",
     "write_page",
+    "write_plan",
     "write_text",
 ]

@@ -23,11 +23,13 @@ def velocities(axes: Any, document: dict[str, Any], motion: Motion) -> None:
     names = document["robot"].get("joint_names") or _numbered(len(limits))
     assert motion.qd is not None
     for k, share in enumerate((motion.qd / limits).T):
-        axes.plot(motion.t, share, color=CURVES[k % 7], lw=1.3, label=names[k])
+        axes.plot(
+            motion.t, share, color=CURVES[k % len(CURVES)], lw=1.3, label=names[k]
+        )
     for level in (-1.0, 1.0):
         axes.axhline(level, color=LIMIT, lw=1.0, ls=(0, (4, 3)))
     axes.set_ylim(-1.2, 1.2)
-    _dress(axes, "joint velocity / limit", "time [s]", motion.t)
+    dress(axes, "joint velocity / limit", "time [s]", motion.t)
     if len(names) <= 8:
         axes.legend(ncol=4, fontsize=6.5, frameon=False, loc="lower center")
         axes.set_ylim(-1.75, 1.2)
@@ -42,7 +44,7 @@ def memory_cell(axes: Any, activity: Array) -> None:
         axes.plot(order, activity, "o", color=CURVES[3], ms=3.2)
     axes.axhline(0.5, color="#9aa1ad", lw=0.8, ls=(0, (2, 3)))
     axes.set_ylim(-0.06, 1.06)
-    _dress(axes, "memory-cell activity before each exploration", "exploration", order)
+    dress(axes, "memory-cell activity before each exploration", "exploration", order)
     axes.set_xlim(0.5, len(order) + 0.5)
     axes.xaxis.get_major_locator().set_params(integer=True)
 
@@ -56,11 +58,12 @@ def clearance(axes: Any, motion: Motion, distance: Array, proved: Any) -> None:
         axes.axhline(1e3 * proved, color=CURVES[2], lw=1.0, label=text)
     top = float(1e3 * distance.max())
     axes.set_ylim(min(-0.08 * top, 1.1e3 * float(distance.min())), 1.12 * top + 1e-9)
-    _dress(axes, "clearance to obstacles [mm]", "time [s]", motion.t)
+    dress(axes, "clearance to obstacles [mm]", "time [s]", motion.t)
     axes.legend(fontsize=6.5, frameon=False, loc="upper right")
 
 
-def _dress(axes: Any, title: str, below: str, over: Array) -> None:
+def dress(axes: Any, title: str, below: str, over: Array) -> None:
+    """Give a chart its title, its axis label and the common looks."""
     axes.set_title(title, loc="left", fontsize=9, color=INK, pad=5)
     axes.set_xlabel(below, fontsize=7.5, color=INK, labelpad=2)
     if len(over) > 1:

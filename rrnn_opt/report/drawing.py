@@ -16,6 +16,7 @@ from rrnn_opt.report.mesh import Mesh, merged
 from rrnn_opt.report.motion import Motion, motion_of
 from rrnn_opt.report.pose import joint_frames, sphere_centres, tip_positions
 from rrnn_opt.report.stage import Workspace, drawn, obstacles_of, workspace
+from rrnn_opt.scene.shapes import Obstacle
 
 Array = NDArray[np.float64]
 
@@ -35,7 +36,8 @@ class Drawing:
         targets: positions of tip goals, (k, 3), m.
         goals: joint goals, each (nv,).
         space: the box that is drawn.
-        solids: meshes of the obstacles, cut to the box.
+        shapes: the obstacles.
+        solids: meshes of what the box shows of them, finely tiled.
         missing: names of obstacles that cannot be drawn.
         distance: sampled clearance to the obstacles, (n,), m, or None.
         view: direction to look from.
@@ -49,6 +51,7 @@ class Drawing:
     targets: Array
     goals: list[Array]
     space: Workspace
+    shapes: list[Obstacle]
     solids: list[Mesh]
     missing: list[str]
     distance: Array | None
@@ -97,6 +100,7 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         targets=targets,
         goals=goals,
         space=space,
+        shapes=shapes,
         solids=[solid for solid in solids if len(solid.quads)],
         missing=missing + outside,
         distance=distance,

@@ -64,7 +64,8 @@ def _scene(document: dict[str, Any], drawing: Drawing) -> str:
     data = base64.b64encode(picture(document)).decode("ascii")
     return (
         f'<figure><img alt="the motion" src="data:image/png;base64,{data}">'
-        f"<figcaption>For the moving scene: <code>{INSTALL}</code></figcaption></figure>"
+        f"<figcaption>For the moving scene: <code>{INSTALL}</code></figcaption>"
+        "</figure>"
     )
 
 

@@ -14,19 +14,22 @@ from rrnn_opt.report.drawing import Drawing
 from rrnn_opt.report.mesh import Mesh, merged
 from rrnn_opt.report.palette import (
     END,
+    GRID,
     OBSTACLE,
     PLATE,
     SHELL,
+    START,
     TARGET,
     rgb,
     time_colours,
 )
+from rrnn_opt.report.stage import drawn
 from rrnn_opt.scene.pose import quaternion_from_matrix
 
 Array = NDArray[np.float64]
 
 INSTALL = "pip install rrnn_opt[viz]"
-LENS = 2.0
+LENS = 1.75
 SLOWEST_FRAME = 0.1
 
 
@@ -48,6 +51,9 @@ def scene_html(drawing: Drawing) -> str | None:
         _camera(server, drawing)
         _surroundings(server.scene, drawing)
         handles = _robot(server.scene, drawing)
+        if drawing.motion.moves:
+            placed = [part.placed(drawing.frames[-1]).mesh for part in drawing.parts]
+            _add(server.scene, "/end", merged(placed[1:]), END, opacity=0.18)
         recorder = server.get_scene_serializer()
         steps = np.diff(drawing.motion.t, append=drawing.motion.t[-1:])
         for k, pause in enumerate(steps):
@@ -91,12 +97,16 @@ def _surroundings(scene: Any, drawing: Drawing) -> None:
     space = drawing.space
     scene.add_grid(
         "/floor",
-        width=2 * space.size,
-        height=2 * space.size,
+        width=1.6 * space.size,
+        height=1.6 * space.size,
         cell_size=space.size / 10,
+        section_size=space.size,
+        cell_color=rgb(GRID),
+        section_color=rgb(START),
         position=(space.centre[0], space.centre[1], space.low[2]),
     )
-    for k, solid in enumerate(drawing.solids):
+    for k, shape in enumerate(drawing.shapes):
+        solid = drawn(shape, space, tile=np.inf)
         _add(scene, f"/obstacles/{k}", solid, OBSTACLE, opacity=0.45)
     for k, target in enumerate(drawing.targets):
         scene.add_icosphere(
@@ -137,6 +147,8 @@ def _robot(scene: Any, drawing: Drawing) -> dict[int, Any]:
 def _add(
     scene: Any, name: str, solid: Mesh, colour: Any, *, opacity: float | None = None
 ) -> None:
+    if not len(solid.quads):
+        return
     scene.add_mesh_simple(
         name,
         solid.vertices.astype(np.float32),

@@ -1,0 +1,89 @@
+"""``rrnn check``: judge a plan or a claim's certificate again, independently."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import Any
+
+from rrnn_opt.cli.output import Output
+from rrnn_opt.errors import DocumentError
+
+HELP = "judge a plan result or a claim's certificate again"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the command's arguments."""
+    parser.add_argument("file", metavar="FILE.json", help="plan.json or a certificate")
+
+
+def run(args: argparse.Namespace, out: Output) -> int:
+    """0 it holds, 1 it does not hold or is UNKNOWN."""
+    document = read(args.file)
+    answer = judged(document)
+    out.document(answer)
+    for line in _lines(answer):
+        out.say(line)
+    return 0 if answer["holds"] else 1
+
+
+def judged(document: dict[str, Any]) -> dict[str, Any]:
+    """The checker's answer as plain data; ``holds`` is among it.
+
+    Raises:
+        DocumentError: it is neither a plan result nor a certificate.
+    """
+    from rrnn_opt.check import check_plan
+    from rrnn_opt.check.claim_certificate import KIND, check_certificate
+
+    if document.get("kind") == KIND:
+        return {"kind": "claim", **check_certificate(document).to_dict()}
+    return check_plan(document).to_dict()
+
+
+def read(path: str) -> dict[str, Any]:
+    """The JSON object that a file holds.
+
+    Raises:
+        DocumentError: it cannot be read, or holds something else.
+    """
+    try:
+        with open(path, encoding="utf-8") as file:
+            document = json.load(file)
+    except OSError as error:
+        raise DocumentError(path, f"cannot be read ({error.strerror})") from error
+    except (ValueError, RecursionError) as error:
+        raise DocumentError(path, f"is not JSON ({error})") from error
+    if not isinstance(document, dict):
+        raise DocumentError(path, "is JSON, but not an object")
+    return document
+
+
+def _lines(answer: dict[str, Any]) -> list[str]:
+    from rrnn_opt.report import check_line
+
+    if answer["kind"] == "claim":
+        word = f"claim {answer['status']}: {answer['reason']}"
+        return [check_line(word, answer["holds"])]
+    lines = [f"plan, status: {answer['status']}"]
+    found = answer["certificate"]
+    if found is None:
+        lines.append(check_line("there is no trajectory to judge", False))
+    else:
+        for key in ("collision_free", "limits"):
+            lines.append(check_line(f"{key}: {found[key]}", found[key] == "PROVED"))
+        lines.append(check_line("goal reached", found["goal_reached"]))
+        faults = [*found["faults"], *_witnesses(found)]
+        lines += [check_line(fault, False) for fault in faults]
+    return lines + [check_line(text, False) for text in answer["disagreements"]]
+
+
+def _witnesses(found: dict[str, Any]) -> list[str]:
+    """Where the motion breaks something, in words."""
+    words = []
+    for key in ("witness", "limits_witness"):
+        witness = found.get(key)
+        if witness:
+            facts = {k: v for k, v in witness.items() if k != "q"}
+            words.append("witness: " + ", ".join(f"{k} {v}" for k, v in facts.items()))
+    return words

@@ -1,0 +1,42 @@
+"""``rrnn generate``: a scheme's controller as a C package."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import Any
+
+from rrnn_opt.cli import named
+from rrnn_opt.cli.folders import folder
+from rrnn_opt.cli.output import Output
+
+HELP = "write a scheme's controller as a C package"
+NETWORKS = ("PrimalDual",)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the command's arguments."""
+    parser.add_argument("formulation", metavar="FORMULATION", help="name of a scheme")
+    parser.add_argument("--robot", required=True, help="built-in name or URDF file")
+    parser.add_argument("--out", required=True, metavar="DIR", help="parent folder")
+    parser.add_argument("--network", choices=NETWORKS, default=NETWORKS[0])
+    parser.add_argument("--real", choices=("float", "double"), default="float")
+    parser.add_argument("--prefix", help="of every exported name (default: the robot)")
+    parser.add_argument("--target", choices=("host",), default="host")
+
+
+def run(args: argparse.Namespace, out: Output) -> int:
+    """Write the package and name its folder."""
+    target = folder(args.out)
+    scheme, robot = named.scheme(args.formulation), named.robot(args.robot)
+    from rrnn_opt import networks
+    from rrnn_opt.embedding import generate
+    from rrnn_opt.robot import Kinematics
+
+    law = getattr(networks, args.network)()(scheme(Kinematics(robot)))
+    package = generate(law, prefix=args.prefix or robot.name, real=args.real)
+    written = package.write(target)
+    manifest: dict[str, Any] = json.loads((written / "MANIFEST.json").read_text())
+    out.document(manifest)
+    out.say(f"wrote {written}")
+    return 0
