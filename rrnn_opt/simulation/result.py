@@ -1,0 +1,132 @@
+"""What a closed-loop run recorded, and its figures."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rrnn_opt.robot import Robot
+from rrnn_opt.simulation.machine import Record
+from rrnn_opt.simulation.task import Array, Task
+
+ROUNDING = 1e-9
+"""A limit exceeded by less than this (rad, m, or per second) counts as kept."""
+
+
+@dataclass(frozen=True, eq=False)
+class SimulationResult:
+    """A tracked curve; row k is at t[k], its velocities hold until t[k+1].
+
+    Attributes:
+        scheme: name of the network that tracked it.
+        robot: the robot.
+        task: as run.
+        t: (rows,), s.
+        reference: where the tip should be, (rows, 3), m.
+        record: what the loop wrote.
+        step: Euler step of the network, s.
+    """
+
+    scheme: str
+    robot: Robot
+    task: Task
+    t: Array
+    reference: Array
+    record: Record
+    step: float
+
+    @property
+    def q(self) -> Array:
+        """Positions, (rows, nv), rad or m."""
+        return self.record.q
+
+    @property
+    def qd(self) -> Array:
+        """Velocities done, noise included, (rows, nv), rad/s or m/s."""
+        return self.record.qd
+
+    @property
+    def command(self) -> Array:
+        """Velocities commanded by the network, (rows, nv), rad/s or m/s."""
+        return self.record.command
+
+    @property
+    def tip(self) -> Array:
+        """Positions of the tracked frame, (rows, 3), m."""
+        return self.record.tip
+
+    @cached_property
+    def error(self) -> Array:
+        """Reference minus tip, (rows, 3), m."""
+        return self.reference - self.tip
+
+    @property
+    def rms_error_m(self) -> float:
+        """Root mean square over the rows of the error's length, m."""
+        return float(np.sqrt(np.mean(np.sum(self.error**2, axis=1))))
+
+    @property
+    def max_error_m(self) -> float:
+        """Largest length of the error at a row, m."""
+        return float(np.linalg.norm(self.error, axis=1).max())
+
+    @property
+    def limits_kept(self) -> bool:
+        """Positions reached and velocities commanded within the robot's limits.
+
+        The noise acts behind the command: velocities done are not judged.
+        """
+        limits = self.robot.limits
+        low = (self.q >= limits.lower - ROUNDING).all()
+        high = (self.q <= limits.upper + ROUNDING).all()
+        slow = (np.abs(self.command) <= limits.velocity + ROUNDING).all()
+        return bool(low and high and slow)
+
+    @property
+    def steps(self) -> int:
+        """Control steps."""
+        return len(self.t) - 1
+
+    def to_dict(self, files: Sequence[str | Path] = ()) -> dict[str, Any]:
+        """The document of ``rrnn simulate --json``.
+
+        Args:
+            files: names of files written beside it.
+        """
+        return {
+            "rms_error_m": self.rms_error_m,
+            "max_error_m": self.max_error_m,
+            "duration_s": float(self.t[-1]),
+            "steps": self.steps,
+            "limits_kept": self.limits_kept,
+            "seed": self.task.noise.seed,
+            "files": [str(name) for name in files],
+            "scheme": self.scheme,
+            "robot": self.robot.name,
+            "network_steps": self.record.network_steps,
+            "unsettled": self.record.unsettled,
+        }
+
+    def write_csv(self, path: str | Path) -> None:
+        """Write t, q, qd, tip and reference, one row a control step.
+
+        Args:
+            path: the file; it is replaced.
+        """
+        nv = self.robot.nv
+        head = ["t", *_names("q", nv), *_names("qd", nv), "x", "y", "z"]
+        columns = (self.t[:, None], self.q, self.qd, self.tip, self.reference)
+        with Path(path).open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow([*head, "xd", "yd", "zd"])
+            writer.writerows(np.hstack(columns).tolist())
+
+
+def _names(stem: str, count: int) -> list[str]:
+    return [f"{stem}{k + 1}" for k in range(count)]
