@@ -103,6 +103,15 @@ class Search:
             self._call("segment_free", ct.c_int32, types, a.ctypes.data, b.ctypes.data)
         )
 
+    def postures_free(self, q: Array) -> NDArray[np.bool_]:
+        """Which postures (N, nv) keep every promised clearance, (N,)."""
+        q = np.ascontiguousarray(q, dtype=np.float64).reshape(-1, self._nv)
+        out = np.zeros(len(q), np.bool_)
+        types = (ct.c_void_p, ct.c_int32, ct.c_void_p)
+        pointers = (q.ctypes.data, len(q), out.ctypes.data)
+        self._call("postures_free", None, types, *pointers)
+        return out
+
     def closest(self, q: Array, radius: float = 0.1) -> Contact | None:
         """Closest pair at ``q`` among those that ``radius`` rad could close."""
         out, types = Closest(), (ct.c_void_p, ct.c_double, ct.POINTER(Closest))

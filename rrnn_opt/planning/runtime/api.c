@@ -99,6 +99,17 @@ RRNN_EXPORT int32_t NAME(segment_free)(planner_t *planner, const double *from,
     return segment_free(planner, from, to);
 }
 
+/* Which of the postures keep every promised clearance? */
+RRNN_EXPORT void NAME(postures_free)(planner_t *planner, const double *q,
+                                     int32_t count, uint8_t *out)
+{
+    for (int32_t i = 0; i < count; i++) {
+        pose_t pose;
+        pose_at(q + NV * i, &pose);
+        out[i] = (uint8_t)!world_hit(&planner->world, &pose);
+    }
+}
+
 /* The pair with the least gap among those within `radius` rad of motion. */
 RRNN_EXPORT int32_t NAME(closest)(planner_t *planner, const double *q, double radius,
                              closest_t *out)

@@ -94,6 +94,29 @@ static int world_near(world_t *world, const pose_t *pose, double radius)
     return world_pairs(world, pose, radius);
 }
 
+/* Does a pair break its promised clearance?  Stops at the first that does. */
+static int world_hit(const world_t *world, const pose_t *pose)
+{
+    double d, n[3];
+    for (int32_t i = 0; i < NS; i++) {
+        const double *center = pose->centers + 3 * i;
+        for (int32_t o = 0; t_moves[i] && o < world->count; o++) {
+            k_distance(world->kind[o], center, world->shape + SHAPE * o, &d, n);
+            if (d - t_radius[i] - world->margin < 0.0) {
+                return 1;
+            }
+        }
+    }
+    for (int32_t p = 0; p < NP; p++) {
+        const int32_t i = t_pair_i[p], j = t_pair_j[p];
+        k_distance_pair(pose->centers + 3 * i, pose->centers + 3 * j, &d, n);
+        if (d - t_radius[i] - t_radius[j] < 0.0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* Motion bound B of a pair for the increment u. */
 static double near_bound(const near_t *pair, const double *u)
 {
