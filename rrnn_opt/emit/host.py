@@ -151,9 +151,22 @@ def compile_text(
 
 
 def _environment(folder: str) -> dict[str, str]:
-    """Keep the compiler's own temporary files and caches in our folder."""
-    zig = os.environ.get("ZIG_GLOBAL_CACHE_DIR") or os.path.join(folder, "zig")
+    """Keep the compiler's temporary files with us, and zig's cache with ours.
+
+    Zig builds its start-up files once into a cache of its own: without one
+    that lasts, every compilation takes ten seconds instead of a fraction.
+    """
+    zig = os.environ.get("ZIG_GLOBAL_CACHE_DIR") or _lasting() or f"{folder}/zig"
     return {"TMPDIR": folder, "ZIG_GLOBAL_CACHE_DIR": zig, "ZIG_LOCAL_CACHE_DIR": zig}
+
+
+def _lasting() -> str | None:
+    lasting = cache.cache_folder() / "zig"
+    try:
+        lasting.parent.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return None
+    return str(lasting) if os.access(lasting.parent, os.W_OK) else None
 
 
 def _refusal(code: int, output: str) -> str:
