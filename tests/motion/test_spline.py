@@ -1,0 +1,44 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rrnn_opt.motion.path import Path
+from rrnn_opt.motion.spline import SmoothPath
+
+
+def smooth(points, spacing=0.1, scale=1.0):
+    return SmoothPath(Path(points), spacing=spacing, scale=scale)
+
+
+@settings(max_examples=40, deadline=None, derandomize=True)
+@given(seed=st.integers(0, 10**6), spacing=st.floats(0.02, 2.0))
+def test_it_stays_in_the_box_of_its_polyline(seed, spacing):
+    points = np.random.default_rng(seed).normal(size=(5, 3))
+    q = smooth(points, spacing)(np.linspace(0, 1, 400))
+    assert np.all(q >= points.min(axis=0) - 1e-12)
+    assert np.all(q <= points.max(axis=0) + 1e-12)
+    np.testing.assert_allclose(q[[0, -1]], points[[0, -1]], atol=1e-12)
+
+
+def test_a_straight_line_is_followed_at_even_speed():
+    curve, s = smooth([[0.0, 0.0], [3.0, 4.0]]), np.linspace(0, 1, 50)
+    np.testing.assert_allclose(curve(s), s[:, None] * [3.0, 4.0], atol=1e-12)
+    np.testing.assert_allclose(curve(s, 1), np.tile([3.0, 4.0], (50, 1)), atol=1e-9)
+    np.testing.assert_allclose(curve(s, 2), 0.0, atol=1e-7)
+
+
+@pytest.mark.parametrize("spacing", [0.2, 0.1, 0.05])
+def test_a_corner_is_missed_by_less_than_half_a_span(spacing):
+    corner = [1.0, 0.0]
+    curve = smooth([[0.0, 0.0], corner, [1.0, 1.0]], spacing)
+    away = np.linalg.norm(curve(np.linspace(0, 1, 5001)) - corner, axis=1).min()
+    assert away < spacing / 2
+
+
+def test_the_grid_holds_every_knot():
+    curve = smooth([[0.0], [1.0]], 0.1)
+    grid = curve.grid(100)
+    assert len(grid) >= 101
+    for knot in np.linspace(0, 1, curve.spans + 1):
+        assert np.abs(grid - knot).min() < 1e-12
