@@ -1,3 +1,4 @@
+import dataclasses
 import subprocess
 import sys
 
@@ -149,3 +150,10 @@ def test_solvers_are_imported_only_when_asked():
         "assert 'qpsolvers' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_convexity_is_checked_again_with_the_numbers():
+    # a standard form made by hand has not been through the declaration's gate
+    bent = dataclasses.replace(FORM.qp, P=ca.SX(np.diag([1.0, -1e-6, 1.0])))
+    with pytest.raises(NotAQpError, match=r"qp\.at: indefinite Hessian; eigenvalue"):
+        bent.at(**GIVEN)
