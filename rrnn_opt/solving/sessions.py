@@ -60,7 +60,7 @@ class OsqpSession:
         lower, upper = _sides(qp)
         self._solver = osqp.OSQP()
         self._solver.setup(
-            P=_full_csc(np.triu(qp.P), upper_only=True),
+            P=_upper_csc(qp.P),
             q=qp.q,
             A=_rows_csc(qp),
             l=lower,
@@ -87,7 +87,7 @@ class OsqpSession:
             l=lower,
             u=upper,
             Px=qp.P.T[np.tril_indices(len(qp.q))],
-            Ax=_rows_csc(qp).data,
+            Ax=_row_values(qp),
         )
         answer = self._solver.solve(raise_error=False)
         spent = time.perf_counter() - start
@@ -179,23 +179,29 @@ def _daqp_form(
     )
 
 
+def _row_values(qp: Dense) -> Array:
+    """Stored entries of [I; G; A], column by column: a one, then G's, then A's."""
+    ones = np.ones((1, len(qp.q)))
+    return np.vstack([ones, qp.G, qp.A]).ravel(order="F")
+
+
 def _rows_csc(qp: Dense) -> Any:
     """[I; G; A] with all entries of G and A stored, so that updates fit."""
     from scipy import sparse
 
-    n = len(qp.q)
-    dense = np.vstack([qp.G, qp.A])
-    lower = _full_csc(dense, upper_only=False)
-    return sparse.vstack([sparse.eye(n, format="csc"), lower], format="csc")
+    n, rows = len(qp.q), len(qp.h) + len(qp.b)
+    below = np.tile(np.arange(n, n + rows), (n, 1))
+    indices = np.hstack([np.arange(n)[:, None], below]).ravel()
+    starts = np.arange(n + 1) * (1 + rows)
+    return sparse.csc_matrix((_row_values(qp), indices, starts), shape=(n + rows, n))
 
 
-def _full_csc(matrix: Array, *, upper_only: bool) -> Any:
-    """A compressed matrix that stores zeros too (or the upper triangle's)."""
+def _upper_csc(matrix: Array) -> Any:
+    """The upper triangle, zeros stored too."""
     from scipy import sparse
 
-    rows, columns = matrix.shape
-    heights = [min(c + 1, rows) if upper_only else rows for c in range(columns)]
-    indices = np.concatenate([np.arange(k) for k in heights]).astype(np.int32)
-    data = np.concatenate([matrix[:k, c] for c, k in enumerate(heights)])
-    starts = np.concatenate([[0], np.cumsum(heights)]).astype(np.int32)
-    return sparse.csc_matrix((data, indices, starts), shape=matrix.shape)
+    n = len(matrix)
+    indices = np.concatenate([np.arange(c + 1) for c in range(n)])
+    starts = np.concatenate([[0], np.cumsum(np.arange(1, n + 1))])
+    values = matrix.T[np.tril_indices(n)]
+    return sparse.csc_matrix((values, indices, starts), shape=(n, n))
