@@ -35,3 +35,18 @@ def test_a_mimic_joint_beside_the_chain_follows(branched):
 
 def test_the_default_tip_is_the_last_leaf_that_moves(branched):
     assert Robot.from_urdf(branched).tip == "thumb"
+
+
+@pytest.mark.parametrize("locked", [{}, {"turn": 0.6}, {"oppose": 0.2}])
+def test_a_joint_may_mimic_a_mimic_joint(locked, tmp_path, oracle):
+    path = tmp_path / "twice.urdf"
+    old, new = 'mimic joint="grip"', 'mimic joint="oppose"'
+    assert old in oracle.branched_text
+    path.write_text(oracle.branched_text.replace(old, new))
+    robot = Robot.from_urdf(path, tip="hand", locked=locked)
+    model, kin = pin.buildModelFromUrdf(str(path)), Kinematics(robot)
+    camera = ca.Function("T", [kin.q], [kin.pose("camera")])
+    for q in oracle.postures(robot, 3):
+        values = oracle.pin_values(robot, q, oracle.mimic_couplings(path), locked)
+        want, _ = oracle.pin_pose_jacobian(model, values, "camera")
+        assert np.abs(np.array(camera(q)) - want).max() <= 1e-12
