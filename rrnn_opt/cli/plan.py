@@ -11,7 +11,7 @@ from rrnn_opt.cli.folders import folder
 from rrnn_opt.cli.output import Output
 
 HELP = "plan a motion, retime it and prove it"
-PLANNERS = ("random-rnn", "no-learning")
+PLANNER = "random-rnn"
 EXPLORATIONS = 20_000
 STATUS = {"bad_input": "invalid_problem", "interrupted": "interrupted"}
 
@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's arguments."""
     parser.add_argument("problem", metavar="PROBLEM.json", help="the problem file")
     parser.add_argument(
-        "--planner", choices=PLANNERS, default=PLANNERS[0], help="which planner"
+        "--planner", default=PLANNER, metavar="NAME", help="default %(default)s"
     )
     parser.add_argument(
         "--time-limit", type=seconds, metavar="S", help="seconds for the search"

@@ -14,13 +14,15 @@ Array = NDArray[np.float64]
 INK = "#2b2f38"
 GRID = "#e3e6ec"
 LIMIT = "#c0392b"
+LONGEST = 14
 CURVES = ("#3b6fb6", "#e08b2d", "#4a9d6e", "#b5527d", "#7a68b3", "#8a6d4b", "#4aa5b5")
 
 
 def velocities(axes: Any, document: dict[str, Any], motion: Motion) -> None:
     """Joint velocities over time, each as a share of its own limit."""
     limits = np.asarray(document["robot"]["limits"]["velocity"], dtype=float)
-    names = document["robot"].get("joint_names") or _numbered(len(limits))
+    given = document["robot"].get("joint_names") or _numbered(len(limits))
+    names = [_literal(name) for name in given]
     assert motion.qd is not None
     for k, share in enumerate((motion.qd / limits).T):
         axes.plot(
@@ -54,7 +56,7 @@ def clearance(axes: Any, motion: Motion, distance: Array, proved: Any) -> None:
     axes.plot(motion.t, 1e3 * distance, color=CURVES[0], lw=1.4, label="sampled")
     axes.axhline(0.0, color=LIMIT, lw=1.0, ls=(0, (4, 3)))
     if proved is not None:
-        text = f"proved: at least {1e3 * proved:.2f} mm"
+        text = f"proved: at least {1e3 * proved:.3g} mm"
         axes.axhline(1e3 * proved, color=CURVES[2], lw=1.0, label=text)
     top = float(1e3 * distance.max())
     axes.set_ylim(min(-0.08 * top, 1.1e3 * float(distance.min())), 1.12 * top + 1e-9)
@@ -79,3 +81,15 @@ def dress(axes: Any, title: str, below: str, over: Array) -> None:
 
 def _numbered(count: int) -> list[str]:
     return [f"q{k + 1}" for k in range(count)]
+
+
+def _literal(name: object) -> str:
+    """A short name that matplotlib takes neither for a formula nor for hidden."""
+    text = str(name)
+    text = (
+        text
+        if len(text) <= LONGEST
+        else text[: LONGEST - 1] + "\N{HORIZONTAL ELLIPSIS}"
+    )
+    text = text.replace("$", r"\$")
+    return f" {text}" if text.startswith("_") else text

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """A surface of quadrilaterals.
+    """A surface of quadrilaterals, counter-clockwise seen from outside.
 
     Attributes:
         vertices: (v, 3), m.
@@ -129,7 +129,7 @@ def tube(a: Array, b: Array, radius: float, *, sides: int = 6) -> Mesh:
 
 def cylinder_z(radius: float, low: float, high: float, *, sides: int = 28) -> Mesh:
     """A cylinder along z between two heights."""
-    rings = np.array([0.0, 0.3, 0.55, 0.8, 1.0]) * radius
+    rings = np.array([0.0, 0.3, 0.55, 0.8, 1.0, 1.0]) * radius  # sharp edges
     profile = [[r, low] for r in rings] + [[r, high] for r in rings[::-1]]
     return revolved(profile, sides)
 
@@ -139,10 +139,11 @@ def box(low: Array, high: Array, *, tile: float) -> Mesh:
     faces = []
     for axis in range(3):
         first, second = (axis + 1) % 3, (axis + 2) % 3
-        for end in (low, high):
+        for end, outwards in ((low, -1), (high, 1)):
             grid = plate(low, high, (first, second), tile)
             grid[..., axis] = end[axis]
-            faces.append(surface(grid))
+            face = surface(grid)
+            faces.append(Mesh(face.vertices, face.quads[:, ::outwards]))
     return merged(faces)
 
 

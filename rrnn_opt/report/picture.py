@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.report import charts, mesh
+from rrnn_opt.report.charts import INK
 from rrnn_opt.report.drawing import Drawing, drawing_of
 from rrnn_opt.report.files import write_bytes
 from rrnn_opt.report.painter import Painter
@@ -146,7 +147,9 @@ def _title(figure: Any, document: dict[str, Any], drawing: Drawing) -> None:
     for key in ("collision_free", "limits"):
         if proof.get(key):
             said.append(f"{key.replace('_', ' ')}: {proof[key]}")
-    figure.text(0.02, 0.955, name, fontsize=15, weight="bold", color=charts.INK)
+    figure.text(
+        0.02, 0.955, name, fontsize=15, weight="bold", color=INK, parse_math=False
+    )
     figure.text(
         0.02 + 0.0105 * (len(name) + 1),
         0.957,

@@ -107,7 +107,8 @@ def _surroundings(scene: Any, drawing: Drawing) -> None:
     )
     for k, shape in enumerate(drawing.shapes):
         solid = drawn(shape, space, tile=np.inf)
-        _add(scene, f"/obstacles/{k}", solid, OBSTACLE, opacity=0.45)
+        side = "double" if shape.kind == "halfspace" else "front"
+        _add(scene, f"/obstacles/{k}", solid, OBSTACLE, opacity=0.5, side=side)
     for k, target in enumerate(drawing.targets):
         scene.add_icosphere(
             f"/target/{k}",
@@ -145,7 +146,13 @@ def _robot(scene: Any, drawing: Drawing) -> dict[int, Any]:
 
 
 def _add(
-    scene: Any, name: str, solid: Mesh, colour: Any, *, opacity: float | None = None
+    scene: Any,
+    name: str,
+    solid: Mesh,
+    colour: Any,
+    *,
+    opacity: float | None = None,
+    side: str = "front",
 ) -> None:
     if not len(solid.quads):
         return
@@ -155,8 +162,7 @@ def _add(
         solid.triangles.astype(np.uint32),
         color=rgb(colour) if isinstance(colour, str) else colour,
         opacity=opacity,
-        side="double",
-        flat_shading=name.startswith("/obstacles"),
+        side=side,
         cast_shadow=opacity is None,
         receive_shadow=opacity is None,
     )
