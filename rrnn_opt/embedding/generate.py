@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from importlib import metadata
 from typing import Any
 
@@ -14,16 +13,11 @@ from rrnn_opt.embedding import render
 from rrnn_opt.embedding.kernel import Field, Kernel, kernel
 from rrnn_opt.embedding.package import Package, with_manifest
 from rrnn_opt.embedding.vectors import STEP_SIZE, reference_vectors
-from rrnn_opt.emit.c99 import require_identifier
+from rrnn_opt.embedding.words import require_prefix
 from rrnn_opt.emit.prologue import Real, require_real
 from rrnn_opt.errors import RrnnError
 
 MAX_STEPS = 100_000
-_STANDARD_HEADERS = frozenset(
-    ("assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646")
-    + ("limits", "locale", "math", "setjmp", "signal", "stdarg", "stdbool", "stddef")
-    + ("stdint", "stdio", "stdlib", "string", "tgmath", "time", "wchar", "wctype")
-)
 
 
 def generate(
@@ -77,21 +71,6 @@ def generate(
     }
     options = {"real": real, "steps": steps, "step_size": step_size}
     return with_manifest(prefix, files, _facts(core, prefix, options))
-
-
-def require_prefix(prefix: str) -> str:
-    """Return ``prefix`` if files and C names can begin with it.
-
-    Raises:
-        RrnnError: they cannot.
-    """
-    legal = re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,30}", prefix, re.ASCII)
-    if not legal or prefix.lower() in _STANDARD_HEADERS:
-        raise RrnnError(
-            f"prefix {prefix!r}: use a letter, then up to 30 letters, digits or"
-            " underscores, and not the name of a standard header"
-        )
-    return require_identifier(prefix)
 
 
 def _require_steps(steps: int, step_size: float | None, real: Real) -> None:

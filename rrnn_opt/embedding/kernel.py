@@ -7,25 +7,10 @@ from dataclasses import dataclass
 import casadi as ca
 
 from rrnn_opt.dynamics import Euler, NeuralDynamics
+from rrnn_opt.embedding.words import member
 from rrnn_opt.emit.c99 import parameter_names
 from rrnn_opt.symbolic import Symbol, Tape, shape_of
 
-_TAKEN = frozenset(
-    ("alignas", "alignof", "and", "asm", "bool", "catch", "class", "compl", "concept")
-    + ("constexpr", "decltype", "delete", "explicit", "export", "false", "friend")
-    + ("mutable", "namespace", "new", "noexcept", "not", "nullptr", "operator", "or")
-    + (
-        "private",
-        "protected",
-        "public",
-        "requires",
-        "template",
-        "this",
-        "throw",
-        "tick",
-    )
-    + ("true", "try", "typeid", "typename", "using", "virtual", "wchar_t", "xor")
-)
 STEP = Symbol.scalar("step_size", "s", "Euler step of the network")
 
 
@@ -105,7 +90,7 @@ def kernel(dynamics: NeuralDynamics) -> Kernel:
         list(outputs),
     )
     tape = Tape.of(function)
-    names = [_member(name) for name in parameter_names(tape)]
+    names = [member(name) for name in parameter_names(tape)]
     fields = [
         Field(name, s.shape, s.unit, s.meaning)
         for name, s in zip(names, symbols, strict=False)
@@ -114,11 +99,6 @@ def kernel(dynamics: NeuralDynamics) -> Kernel:
     return Kernel(
         dynamics, function, tape, fields[0], tuple(fields[1:-1]), output, bounds
     )
-
-
-def _member(name: str) -> str:
-    """A name that a struct member may have in C and in C++."""
-    return f"{name}_" if name in _TAKEN else name
 
 
 def _output_field(dynamics: NeuralDynamics, shape: tuple[int, int]) -> Field:

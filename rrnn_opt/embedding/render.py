@@ -18,7 +18,7 @@ from rrnn_opt.emit.prologue import Real
 
 TOLERANCE: dict[str, float] = {"double": 1e-12, "float": 1e-4}
 _LARGEST = {"double": "DBL_MAX", "float": "FLT_MAX"}
-_ANGLE = {"double": "2^20", "float": "2^15"}
+_ANGLE = {"double": "2^30", "float": "2^15"}
 
 
 def template(name: str, words: dict[str, str]) -> str:

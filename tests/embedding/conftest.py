@@ -1,0 +1,48 @@
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import rrnn_opt as rr
+from rrnn_opt.emit import find_compiler
+
+LANGUAGE = ["-std=c99", "-O2", "-ffp-contract=off", "-Werror"]
+WARNINGS = ["all", "extra", "pedantic", "conversion", "shadow", "double-promotion"]
+WARNINGS += ["float-conversion", "missing-prototypes"]
+
+
+@pytest.fixture(scope="session")
+def networks():
+    kin = rr.Kinematics(rr.Robot.builtin("planar3"))
+    rule = rr.networks.PrimalDual(epsilon=0.05)
+    return {
+        "box": rule(rr.formulations.position_feedback(kin, epsilon=0.05)),
+        "rows": rule(rr.formulations.minimum_velocity(kin)),
+    }
+
+
+@pytest.fixture
+def cc(tmp_path):
+    """Compile sources with every warning an error."""
+    command = find_compiler().command
+
+    def compile_(sources, out, *flags, includes=()):
+        places = [f"-I{folder}" for folder in includes]
+        warn = [f"-W{name}" for name in WARNINGS]
+        call = [
+            *command,
+            *LANGUAGE,
+            *warn,
+            *flags,
+            *places,
+            *map(str, sources),
+            "-lm",
+            "-o",
+        ]
+        call.append(str(tmp_path / out))
+        done = subprocess.run(call, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        assert done.stderr == ""
+        return Path(tmp_path / out)
+
+    return compile_

@@ -1,0 +1,285 @@
+"""The package compiles without a warning and computes what CasADi computes."""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import casadi as ca
+import numpy as np
+import pytest
+
+import rrnn_opt as rr
+from rrnn_opt.dynamics import Euler, NeuralDynamics
+from rrnn_opt.embedding import generate
+from rrnn_opt.errors import RrnnError
+from rrnn_opt.symbolic import Symbol
+
+C_TYPE = {"double": ctypes.c_double, "float": ctypes.c_float}
+TOLERANCE = {"double": 1e-12, "float": 1e-4}
+
+
+def run(*call):
+    return subprocess.run(call, capture_output=True, text=True, check=False, timeout=60)
+
+
+def structs(dynamics, real):
+    """The structs of the header, written down a second time."""
+    number = C_TYPE[real]
+
+    def struct(fields):
+        return type("S", (ctypes.Structure,), {"_fields_": fields})
+
+    n, m = dynamics.state.size, dynamics.output.numel()
+    state = [("x", number * n), ("h", number), ("tick", ctypes.c_uint32)]
+    inputs = [(p.name, number * p.size) for p in dynamics.parameters]
+    out = [("output", number * m), ("residual", number)]
+    return struct(state), struct(inputs), struct(out), struct([("h", number)])
+
+
+@pytest.mark.parametrize("real", ["double", "float"])
+@pytest.mark.parametrize("name", ["box", "rows"])
+@pytest.mark.parametrize("steps", [1, 5])
+def test_steps_are_those_of_the_dynamics(networks, cc, tmp_path, name, real, steps):
+    dynamics = networks[name]
+    package = generate(dynamics, prefix="arm", real=real, steps=steps)
+    folder = package.write(tmp_path)
+    program = cc(
+        [folder / "src/arm.c"],
+        "arm.so",
+        "-shared",
+        "-fPIC",
+        includes=[folder / "include"],
+    )
+    lib = ctypes.CDLL(str(program))
+    State, In, Out, Param = structs(dynamics, real)
+    state, out, number = State(), Out(), C_TYPE[real]
+    h = number(0.004).value
+    assert lib.arm_init(ctypes.byref(state), ctypes.byref(Param(h))) == 0
+    assert list(state.x) == [0.0] * dynamics.state.size
+    oracle = dynamics.step(Euler(h)).functions()["step"]
+    residual = dynamics.functions()["residual"]
+    rng = np.random.default_rng(5)
+    x = np.zeros(dynamics.state.size)
+    for tick in range(20):
+        drawn = [0.4 * rng.standard_normal(p.size) for p in dynamics.parameters]
+        given = In(*[(number * len(v))(*v) for v in drawn])
+        exact = [np.array(list(getattr(given, p.name))) for p in dynamics.parameters]
+        assert (
+            lib.arm_step(ctypes.byref(state), ctypes.byref(given), ctypes.byref(out))
+            == 0
+        )
+        for _ in range(steps):
+            last = np.max(np.abs(np.asarray(residual(x, *exact))))
+            x = np.asarray(oracle(x, *exact)[0]).ravel()
+        want = np.asarray(oracle(x, *exact)[1]).ravel()
+        np.testing.assert_allclose(
+            list(state.x), x, rtol=TOLERANCE[real], atol=TOLERANCE[real]
+        )
+        np.testing.assert_allclose(
+            list(out.output), want, rtol=TOLERANCE[real], atol=TOLERANCE[real]
+        )
+        assert out.residual == pytest.approx(last, rel=1e-3, abs=1e-4)
+        assert state.tick == tick + 1
+        x = np.array(list(state.x))  # so that rounding does not pile up
+    hash_ = lib.arm_model_hash
+    hash_.restype = ctypes.c_char_p
+    assert hash_().decode() == package.manifest["model_hash"]
+
+
+@pytest.mark.parametrize("real", ["double", "float"])
+def test_refusals_leave_everything_as_it_was(networks, cc, tmp_path, real):
+    dynamics = networks["box"]
+    folder = generate(dynamics, real=real).write(tmp_path)
+    program = cc(
+        [folder / "src/arm.c"],
+        "arm.so",
+        "-shared",
+        "-fPIC",
+        includes=[folder / "include"],
+    )
+    lib = ctypes.CDLL(str(program))
+    State, In, Out, Param = structs(dynamics, real)
+    number = C_TYPE[real]
+    state, out = State(), Out()
+    for h, status in ((0.0, 2), (-1.0, 2), (np.nan, 1), (np.inf, 1), (0.01, 0)):
+        assert lib.arm_init(ctypes.byref(state), ctypes.byref(Param(h))) == status
+
+    def step(q, rd=(1.0, 0.5, 0.0), x=None):
+        given = In((number * 3)(*q), (number * 3)(*rd))
+        if x is not None:
+            state.x = (number * 3)(*x)
+        before = bytes(state), bytes(out)
+        status = lib.arm_step(
+            ctypes.byref(state), ctypes.byref(given), ctypes.byref(out)
+        )
+        assert (status == 0) or (bytes(state), bytes(out)) == before
+        return status
+
+    assert step((0.1, 0.2, 0.3)) == 0
+    assert step((0.1, np.nan, 0.3)) == 1
+    assert step((0.1, 0.2, 0.3), rd=(np.inf, 0, 0)) == 1
+    assert step((0.1, 0.2, 20.0)) == 3  # so far outside that (10) is empty
+    assert step((0.1, 0.2, 0.3), x=(np.nan, 0, 0)) == 1
+    largest = float(np.finfo(np.float32 if real == "float" else float).max)
+    assert step((0.1, 0.2, 0.3), x=(largest,) * 3, rd=(largest,) * 3) == 4
+
+
+@pytest.mark.parametrize("real", ["double", "float"])
+@pytest.mark.parametrize("step_size", [None, 0.002])
+def test_its_own_test_passes(networks, cc, tmp_path, real, step_size):
+    package = generate(networks["rows"], real=real, steps=2, step_size=step_size)
+    folder = package.write(tmp_path)
+    sources = [folder / "src/arm.c", folder / "test/test_host.c"]
+    program = cc(sources, "test_host", includes=[folder / "include"])
+    done = run(program)
+    assert done.returncode == 0
+    assert done.stdout.startswith("PASS: 8 cases")
+
+
+def test_its_own_test_can_fail(networks, cc, tmp_path):
+    """One constant of the kernel changed a little: the vectors see it."""
+    folder = generate(networks["box"], real="double").write(tmp_path)
+    place = folder / "src/arm.c"
+    text = place.read_text()
+    head, kernel = text.split("arm_kernel(", 1)
+    assert "* 0.8" in kernel or "0.8 *" in kernel
+    place.write_text(head + "arm_kernel(" + kernel.replace("0.8", "0.80000001", 1))
+    sources = [place, folder / "test/test_host.c"]
+    program = cc(sources, "test_host", includes=[folder / "include"])
+    done = run(program)
+    assert done.returncode == 1
+    assert done.stdout.startswith("FAIL")
+
+
+def test_two_packages_live_in_one_image(networks, cc, tmp_path):
+    folders = {
+        prefix: generate(networks[name], prefix=prefix, real=real).write(tmp_path)
+        for prefix, name, real in (
+            ("left", "box", "float"),
+            ("right", "rows", "double"),
+        )
+    }
+    main = tmp_path / "main.c"
+    main.write_text(
+        '#include "left.h"\n#include "right.h"\n#include <string.h>\n'
+        "int main(void)\n{\n"
+        "    left_param_t a = {0.01F};\n    right_param_t b = {0.01};\n"
+        "    left_state_t s;\n    right_state_t r;\n"
+        "    const int ok = (left_init(&s, &a) == LEFT_OK)\n"
+        "        && (right_init(&r, &b) == RIGHT_OK);\n"
+        "    return ok && (strcmp(left_model_hash(), right_model_hash()) != 0) ? 0 : 1;\n}\n"
+    )
+    sources = [main, *(folder / f"src/{p}.c" for p, folder in folders.items())]
+    includes = [folder / "include" for folder in folders.values()]
+    program = cc(sources, "both", includes=includes)
+    assert run(program).returncode == 0
+
+
+@pytest.mark.skipif(shutil.which("nm") is None, reason="needs nm")
+def test_only_the_prefixed_functions_are_visible(networks, cc, tmp_path):
+    folder = generate(networks["rows"]).write(tmp_path)
+    program = cc([folder / "src/arm.c"], "arm.o", "-c", includes=[folder / "include"])
+    listed = subprocess.run(["nm", program], capture_output=True, text=True, check=True)
+    rows = [line.split() for line in listed.stdout.splitlines()]
+    defined = {row[-1] for row in rows if row[-2] in "TDBCRV"}
+    assert defined == {"arm_init", "arm_step", "arm_model_hash"}
+    assert not {row[-1] for row in rows if row[-2] in "dDbBC"}  # no variables
+    assert {row[-1] for row in rows if row[-2] == "U"} <= {"memset", "memcpy"}
+
+
+@pytest.mark.skipif(shutil.which("g++") is None, reason="needs g++")
+def test_the_header_is_cpp_too(networks, tmp_path):
+    folder = generate(networks["box"]).write(tmp_path)
+    probe = tmp_path / "probe.cpp"
+    probe.write_text(
+        '#include "arm.h"\nint main() { arm_state_t s; return arm_init(&s, 0); }\n'
+    )
+    call = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-fsyntax-only"]
+    done = run(*call, f"-I{folder / 'include'}", str(probe))
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_network_without_parameters_or_formulation(cc, tmp_path):
+    x = Symbol.scalar("tick", "1", "ends the comment */ int evil; /* and \n a line")
+    dynamics = NeuralDynamics("decay", x, (), -x.sx, 2 * x.sx, x.sx)
+    folder = generate(dynamics, prefix="d", real="double", steps=3).write(tmp_path)
+    sources = [folder / "src/d.c", folder / "test/test_host.c"]
+    program = cc(sources, "t", includes=[folder / "include"])
+    assert run(program).returncode == 0
+    assert "int evil; / *" in (folder / "include/d.h").read_text()
+
+
+SCRIPT = """
+import hashlib, rrnn_opt as rr
+kin = rr.Kinematics(rr.Robot.builtin("planar3"))
+form = rr.formulations.minimum_velocity(kin)
+package = rr.generate(rr.networks.PrimalDual()(form), steps=2, step_size=1e-3)
+print(hashlib.sha256(repr(sorted(package.files.items())).encode()).hexdigest())
+"""
+
+
+def test_the_same_model_gives_the_same_bytes():
+    seen = set()
+    for seed in ("1", "2"):
+        env = os.environ | {"PYTHONHASHSEED": seed}
+        call = [sys.executable, "-c", SCRIPT]
+        done = subprocess.run(call, capture_output=True, text=True, env=env, check=True)
+        seen.add(done.stdout)
+    assert len(seen) == 1
+
+
+def test_the_manifest_tells_what_it_is_made_of(networks):
+    package = rr.generate(networks["rows"], prefix="Arm_7", steps=4, step_size=0.001)
+    manifest = json.loads(package.files["MANIFEST.json"])
+    assert manifest["formulation"]["name"] == "minimum_velocity"
+    assert manifest["options"] == {"real": "float", "steps": 4, "step_size": 0.001}
+    assert [row["name"] for row in manifest["inputs"]] == ["q", "rd_dot"]
+    assert set(manifest["files"]) | {"MANIFEST.json"} == set(package.files)
+    other = rr.generate(networks["box"])
+    assert other.manifest["model_hash"] != manifest["model_hash"]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"prefix": prefix}
+        for prefix in (
+            "",
+            "int",
+            "1a",
+            "a b",
+            "a;b",
+            "../up",
+            "_x",
+            "math",
+            "Float",
+            "é",
+            "a" * 32,
+        )
+    ]
+    + [
+        {"prefix": "arm\n"},
+        {"real": "half"},
+        {"steps": 0},
+        {"steps": 1.5},
+        {"steps": True},
+    ]
+    + [{"step_size": h} for h in (0.0, -1.0, np.nan, np.inf, 1e-60)],
+)
+def test_options_that_make_no_sense_are_refused(networks, options):
+    with pytest.raises(RrnnError):
+        generate(networks["box"], **options)
+
+
+def test_limits_that_are_always_empty_are_said():
+    u = Symbol.vector("u", 1)
+    form = rr.Formulation(
+        "empty", u, (), ca.dot(u.sx, u.sx), lower=ca.SX(1), upper=ca.SX(-1)
+    )
+    with pytest.raises(RrnnError, match="limits"):
+        generate(rr.networks.PrimalDual()(form))
