@@ -67,14 +67,16 @@ def run(out: Path, *, seed: int = 0, say: Say | None = None) -> DemoReport:
     window = scenario("window")
     start = int(np.random.default_rng(seed).integers(len(window.starts)))
     problem = Problem.from_dict(window.problem(start))
-    tell(f"PA10-7C, {problem.robot.nv} joints; wall with a 0.30 m window; start {start}")
+    tell(
+        f"PA10-7C, {problem.robot.nv} joints; wall with a 0.30 m window; start {start}"
+    )
     written = law.write_law(problem.robot)
     tell(f"law, networks (6) and (17), V and V': {_built(written)}")
     result = plan(problem, seed=seed)
     tell(f"plan: {result.status}, {result.message}")
     if result.trajectory is None:
-        checks = (verdict("plan", result.status, "solved"),)
-        return DemoReport((), checks, (), time.perf_counter() - begin)
+        failed = verdict("plan", result.status, "solved")
+        return DemoReport((), (failed,), (), time.perf_counter() - begin)
     checks = _checks(written, result, seed, tell)
     tell("writing picture, page, trajectory and controller")
     paths = files.write_all(out, result, written)
@@ -90,16 +92,16 @@ def _built(written: law.Law) -> str:
 def _checks(
     written: law.Law, result: PlanResult, seed: int, tell: Say
 ) -> tuple[Check, ...]:
-    certificate, stats = result.certificate, result.stats
+    certificate = result.certificate
     checks = [
         law.check_compiled(written, np.random.default_rng(seed)),
-        verdict("trajectory free of collisions", certificate["collision_free"], "PROVED"),
+        verdict(
+            "trajectory free of collisions", certificate["collision_free"], "PROVED"
+        ),
         verdict("trajectory within limits", certificate["limits"], "PROVED"),
         at_most("tip at the target", certificate["goal_error"], 1e-3, "m"),
-        Check("explorations", stats.random + stats.heuristic <= 20_000,
-              str(stats.random + stats.heuristic), "<= 20000"),
         truth.check_checker(result.to_dict()),
-    ]  # fmt: skip
+    ]
     tell("settling two claims")
     checks += truth.check_claims(written)
     tell("comparing equilibria with OSQP and DAQP")
@@ -114,7 +116,10 @@ def _rows(written: law.Law, result: PlanResult) -> tuple[tuple[str, str], ...]:
     total = stats.random + stats.heuristic
     return (
         ("status", result.status),
-        ("explorations", f"{total} ({stats.random} random, {stats.heuristic} heuristic)"),
+        (
+            "explorations",
+            f"{total} ({stats.random} random, {stats.heuristic} heuristic)",
+        ),
         ("certified steps", f"{stats.rollout_steps}"),
         ("plan", f"{1e3 * stats.plan_time_s:.2f} ms"),
         ("shortcut and retiming", f"{1e3 * stats.retime_time_s:.1f} ms"),
@@ -122,4 +127,5 @@ def _rows(written: law.Law, result: PlanResult) -> tuple[tuple[str, str], ...]:
         ("trajectory", f"{result.trajectory['duration']:.2f} s"),
         ("proved clearance", f"{clearance:.3g} mm"),
         ("law in C", _built(written)),
+        ("planner in C", f"ready in {stats.compile_time_s:.2f} s"),
     )

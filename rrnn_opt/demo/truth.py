@@ -18,6 +18,7 @@ from rrnn_opt.solving import (
     DaqpSession,
     OsqpSession,
     SettledNetwork,
+    Solver,
     Tolerances,
     compare,
     record_stream,
@@ -49,9 +50,9 @@ def check_equilibria(law: Law, result: PlanResult) -> list[Check]:
     motion = Trajectory.from_dict(result.trajectory)
     stream = record_stream(law.velocity, motion, kinematics=law.kinematics, count=40)
     limits = Tolerances()
-    solvers = [SettledNetwork(law.network), OsqpSession(), DaqpSession()]
+    solvers: list[Solver] = [SettledNetwork(law.network), OsqpSession(), DaqpSession()]
     rows = compare(stream, solvers, tolerances=limits)
-    network, *others = [r for r in dict.fromkeys(row.solver for row in rows)]
+    network, *others = dict.fromkeys(row.solver for row in rows)
     residual = max(r.residual.worst for r in rows if r.solver == network)
     name = f"network at rest, KKT residual on {len(stream)} QPs"
     checks = [at_most(name, residual, limits.residual)]
