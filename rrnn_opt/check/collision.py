@@ -134,7 +134,7 @@ def _look(
 
 def _measure(work: list[Work], now: Poses, ledger: Ledger) -> None:
     for item in work:
-        item.d, item.n = item.target.distance(now, item.box, item.pair)
+        item.d = item.target.distance(now, item.box, item.pair)
         ledger.checks += len(item.d)
         ledger.nearest = min(ledger.nearest, float(item.d.min()))
 
@@ -178,7 +178,7 @@ def _sift(
         item.shown = np.maximum(item.shown, item.d - travel)
         _settle(item, need, ledger)
         if len(item.box):
-            sharp = item.target.sharp(now, item.box, item.pair, item.n)
+            sharp = item.target.sharp(now, item.box, item.pair)
             item.shown = np.fmax(item.shown, sharp)
             _settle(item, need, ledger)
         if len(item.box):

@@ -84,64 +84,83 @@ def _read_halfspace(entry: Any, name: str, label: str) -> Obstacle:
     return Obstacle(label, "halfspace", axes, np.zeros(3), np.array([offset / length]))
 
 
-def signed_distance(obstacle: Obstacle, points: Array) -> tuple[Array, Array]:
-    """Distance of points to the solid (negative inside) and outward normals.
+def signed_distance(obstacle: Obstacle, points: Array) -> Array:
+    """Distance of points to the solid, negative inside.
 
     Args:
         obstacle: the solid.
         points: world positions, (M, 3), m.
 
     Returns:
-        d (M,) in m, n (M, 3) of unit length; at centres and edges one of the
-        possible normals.
+        (M,), m.
     """
     if obstacle.kind == "halfspace":
-        normal = obstacle.rotation[:, 2]
-        n = np.broadcast_to(normal, points.shape)
-        return points @ normal - obstacle.dims[0], n
+        return np.asarray(points @ obstacle.rotation[:, 2] - obstacle.dims[0])
     local = (points - obstacle.position) @ obstacle.rotation
     if obstacle.kind == "box":
-        d, n = _box(local, obstacle.dims)
+        return _box(local, obstacle.dims)
+    if obstacle.kind == "cylinder":
+        return _box(_meridian(local), obstacle.dims)
+    return _lengths(_from_core(local, obstacle.dims)) - obstacle.dims[0]
+
+
+def normals(obstacle: Obstacle, points: Array) -> Array:
+    """Outward unit normals where the solid is nearest, (M, 3), world axes.
+
+    At centres and edges one of the possible normals.
+
+    Args:
+        obstacle: the solid.
+        points: world positions, (M, 3), m.
+    """
+    if obstacle.kind == "halfspace":
+        return np.broadcast_to(obstacle.rotation[:, 2], points.shape)
+    local = (points - obstacle.position) @ obstacle.rotation
+    if obstacle.kind == "box":
+        n = _box_normals(local, obstacle.dims)
     elif obstacle.kind == "cylinder":
-        d, n = _cylinder(local, obstacle.dims)
+        flat = _meridian(local)
+        m, off_axis = _box_normals(flat, obstacle.dims), flat[:, :1] > 0
+        out = local[:, :2] / np.where(off_axis, flat[:, :1], 1.0)
+        out = np.where(off_axis, out, (1.0, 0.0))
+        n = np.concatenate([m[:, :1] * out, m[:, 1:]], axis=1)
     else:
-        d, n = _rounded(local, obstacle.dims)
-    return d, n @ obstacle.rotation.T
+        away = _from_core(local, obstacle.dims)
+        far = _lengths(away)[:, None]
+        n = np.where(far > 0, away / np.where(far > 0, far, 1.0), (1.0, 0.0, 0.0))
+    return np.asarray(n @ obstacle.rotation.T)
 
 
-def _box(local: Array, half: Array) -> tuple[Array, Array]:
+def _lengths(rows: Array) -> Array:
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", rows, rows)))
+
+
+def _box(local: Array, half: Array) -> Array:
+    over = np.abs(local) - half
+    outside, inside = np.maximum(over, 0.0), np.minimum(over.max(axis=1), 0.0)
+    return np.asarray(_lengths(outside) + inside)
+
+
+def _box_normals(local: Array, half: Array) -> Array:
     over = np.abs(local) - half
     out = np.maximum(over, 0.0)
-    far = np.sqrt(np.einsum("ij,ij->i", out, out))
-    deepest = np.argmax(over, axis=1)
-    rows = np.arange(len(local))
-    outside = far > 0
-    n = np.zeros_like(local)
-    n[rows, deepest] = 1.0
-    n[outside] = out[outside] / far[outside, None]
-    d = np.where(outside, far, over[rows, deepest])
-    return d, np.where(local < 0, -n, n)
+    far = _lengths(out)[:, None]
+    nearest = np.eye(local.shape[1])[np.argmax(over, axis=1)]
+    n = np.where(far > 0, out / np.where(far > 0, far, 1.0), nearest)
+    return np.where(local < 0, -n, n)
 
 
-def _cylinder(local: Array, dims: Array) -> tuple[Array, Array]:
-    rho = np.hypot(local[:, 0], local[:, 1])
-    flat = np.stack([rho, local[:, 2]], axis=1)
-    d, m = _box(flat, dims)
-    safe = np.where(rho > 0, rho, 1.0)
-    across = np.where(rho > 0, local[:, 0] / safe, 1.0)
-    along = np.where(rho > 0, local[:, 1] / safe, 0.0)
-    return d, np.stack([m[:, 0] * across, m[:, 0] * along, m[:, 1]], axis=1)
+def _meridian(local: Array) -> Array:
+    """Distance from the axis, and height along it, (M, 2)."""
+    return np.stack([np.hypot(local[:, 0], local[:, 1]), local[:, 2]], axis=1)
 
 
-def _rounded(local: Array, dims: Array) -> tuple[Array, Array]:
-    """A sphere, or a capsule: all points within a radius of a segment."""
+def _from_core(local: Array, dims: Array) -> Array:
+    """Vectors from the centre of a sphere, or the segment of a capsule, (M, 3)."""
     away = local.copy()
     if len(dims) == 2:
         away[:, 2] -= np.clip(local[:, 2], -dims[1], dims[1])
-    far = np.sqrt(np.einsum("ij,ij->i", away, away))
-    n = away / np.where(far > 0, far, 1.0)[:, None]
-    n[far == 0] = (1.0, 0.0, 0.0)
-    return far - dims[0], n
+    return away
 
 
 def gap(obstacle: Obstacle, points: Array, n: Array) -> Array:
@@ -158,7 +177,7 @@ def gap(obstacle: Obstacle, points: Array, n: Array) -> Array:
         (M,), m.
     """
     if obstacle.kind == "halfspace":
-        return signed_distance(obstacle, points)[0]
+        return signed_distance(obstacle, points)
     beyond: Array = np.einsum("ij,ij->i", n, points - obstacle.position)
     return beyond - _support(obstacle, np.abs(n @ obstacle.rotation))
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.check.boxes import Index, Poses
-from rrnn_opt.check.distance import Obstacle, gap, signed_distance
+from rrnn_opt.check.distance import Obstacle, gap, normals, signed_distance
 from rrnn_opt.check.model import Model
 from rrnn_opt.check.motion_bound import motion_bound, travel_levers
 from rrnn_opt.check.reading import Array
@@ -39,10 +39,10 @@ class Target(Protocol):
     def travel(self, poses: Poses) -> Array:
         """How far each pair can approach inside each box, (B, count), m."""
 
-    def distance(self, poses: Poses, box: Index, pair: Index) -> tuple[Array, Array]:
-        """Signed distance at the middle, (M,), m, and its normal, (M, 3)."""
+    def distance(self, poses: Poses, box: Index, pair: Index) -> Array:
+        """Signed distance at the middle, (M,), m."""
 
-    def sharp(self, poses: Poses, box: Index, pair: Index, n: Array) -> Array:
+    def sharp(self, poses: Poses, box: Index, pair: Index) -> Array:
         """Lower bound of the distance over the whole box, (M,), m."""
 
     def label(self, pair: int) -> list[str]:
@@ -97,16 +97,17 @@ class ObstacleTarget:
         levers = travel_levers(reach, moved, self.model.prismatic)
         return np.asarray(poses.sway @ levers.T, dtype=np.float64)
 
-    def distance(self, poses: Poses, box: Index, pair: Index) -> tuple[Array, Array]:
+    def distance(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""
         sphere = self.spheres[pair]
-        d, n = signed_distance(self.obstacle, poses.centres[box, sphere])
-        return d - self.model.radii[sphere], n
+        d = signed_distance(self.obstacle, poses.centres[box, sphere])
+        return d - self.model.radii[sphere]
 
-    def sharp(self, poses: Poses, box: Index, pair: Index, n: Array) -> Array:
+    def sharp(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""
         sphere = self.spheres[pair]
         points = poses.centres[box, sphere]
+        n = normals(self.obstacle, points)
         moved = self.model.sphere_moved_by()[sphere]
         prismatic = self.model.prismatic
         row = _row_jacobian(poses, prismatic, box, points, n) * moved
@@ -157,19 +158,19 @@ class SelfTarget:
             levers += travel_levers(reach, own, self.model.prismatic)
         return np.asarray(poses.sway @ levers.T, dtype=np.float64)
 
-    def distance(self, poses: Poses, box: Index, pair: Index) -> tuple[Array, Array]:
+    def distance(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""
         i, j = self.pairs[pair, 0], self.pairs[pair, 1]
         apart = poses.centres[box, i] - poses.centres[box, j]
-        far = np.sqrt(np.einsum("ij,ij->i", apart, apart))
-        n = apart / np.where(far > 0, far, 1.0)[:, None]
-        n[far == 0] = (1.0, 0.0, 0.0)
-        return far - self.model.radii[i] - self.model.radii[j], n
+        far: Array = np.sqrt(np.einsum("ij,ij->i", apart, apart))
+        return np.asarray(far - self.model.radii[i] - self.model.radii[j])
 
-    def sharp(self, poses: Poses, box: Index, pair: Index, n: Array) -> Array:
+    def sharp(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""
         sides = self.pairs[pair]
         apart = poses.centres[box, sides[:, 0]] - poses.centres[box, sides[:, 1]]
+        far = np.linalg.norm(apart, axis=1)[:, None]
+        n = np.where(far > 0, apart / np.where(far > 0, far, 1.0), (1.0, 0.0, 0.0))
         free = np.einsum("ij,ij->i", n, apart) - self.model.radii[sides].sum(axis=1)
         prismatic, sway = self.model.prismatic, poses.sway[box]
         row, rest = np.zeros_like(sway), np.zeros(len(box))

@@ -47,7 +47,6 @@ class Work:
         pair: (M,).
         shown: best lower bound of the distance over the box so far, (M,), m.
         d: distance at the middle of the box, (M,), m.
-        n: normal at the middle, (M, 3).
     """
 
     target: Target
@@ -55,12 +54,11 @@ class Work:
     pair: Index
     shown: Array
     d: Array = field(default_factory=lambda: np.zeros(0))
-    n: Array = field(default_factory=lambda: np.zeros((0, 3)))
 
     def keep(self, chosen: Any) -> None:
         """Drop all rows but the chosen ones."""
         self.box, self.pair = self.box[chosen], self.pair[chosen]
-        self.shown, self.d, self.n = self.shown[chosen], self.d[chosen], self.n[chosen]
+        self.shown, self.d = self.shown[chosen], self.d[chosen]
 
     def halved(self, rank: Index) -> Work:
         """Rows of both halves of the boxes with a rank >= 0, renumbered by it."""
