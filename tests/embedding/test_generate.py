@@ -172,7 +172,8 @@ def test_two_packages_live_in_one_image(networks, cc, tmp_path):
         "    left_state_t s;\n    right_state_t r;\n"
         "    const int ok = (left_init(&s, &a) == LEFT_OK)\n"
         "        && (right_init(&r, &b) == RIGHT_OK);\n"
-        "    return ok && (strcmp(left_model_hash(), right_model_hash()) != 0) ? 0 : 1;\n}\n"
+        "    const int same = strcmp(left_model_hash(), right_model_hash()) == 0;\n"
+        "    return (ok && !same) ? 0 : 1;\n}\n"
     )
     sources = [main, *(folder / f"src/{p}.c" for p, folder in folders.items())]
     includes = [folder / "include" for folder in folders.values()]
