@@ -76,7 +76,7 @@ def source(kernel: Kernel, words: dict[str, str], real: Real) -> str:
     call = [_read("x", kernel.state, local=True)]
     call += [_read(f"in->{f.name}", f) for f in kernel.inputs]
     call += ["&state->step_size", "next", "output", "residual"]
-    call += ["lower", "upper"] if n else []
+    call += ["lower", "upper"] * (n > 0)
     checks = [_finite(f"state->{kernel.state.name}", kernel.state)]
     checks += [_finite(f"in->{f.name}", f) for f in kernel.inputs]
     empty = (

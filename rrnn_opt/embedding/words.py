@@ -13,9 +13,9 @@ stdarg stdbool stddef stdint stdio stdlib string tgmath time wchar wctype
 """
 _CPP_WORDS = """
 alignas alignof and asm bool catch class compl concept constexpr decltype delete
-explicit export false friend mutable namespace new noexcept not nullptr operator or private
-protected public requires template this throw true try typeid typename using virtual
-wchar_t xor
+explicit export false friend mutable namespace new noexcept not nullptr operator or
+private protected public requires template this throw true try typeid typename
+using virtual wchar_t xor
 """
 _OWN_MEMBERS = ("tick",)
 
