@@ -1,0 +1,58 @@
+# make demo | test | check | bench | soak | clean
+# Everything happens in .venv here; it is made when it is missing.
+
+PYTHON ?= python3
+JOBS ?= 2
+VENV := .venv
+PY := $(VENV)/bin/python
+PIP := $(PY) -m pip --disable-pip-version-check install --quiet
+RRNN := $(PY) -m rrnn_opt.cli.main
+
+.DELETE_ON_ERROR:
+.PHONY: help demo test check dev bench soak clean
+
+help:
+	@sed -n 's/^# make/make/p' Makefile
+
+demo: $(VENV)/demo.stamp
+	$(RRNN) demo
+
+test: $(VENV)/test.stamp
+	$(PY) -m pytest -q -n $(JOBS)
+
+check:
+	.ci/run
+
+dev: $(VENV)/dev.stamp
+
+bench: $(VENV)/test.stamp
+	$(PY) -m benchmarks
+
+soak: $(VENV)/test.stamp
+	$(PY) -m benchmarks.soak
+
+clean:
+	rm -rf build dist runs rrnn_opt.egg-info .pytest_cache .ruff_cache .mypy_cache \
+	  .hypothesis .import_linter_cache $(VENV)/demo.stamp $(VENV)/test.stamp \
+	  $(VENV)/dev.stamp
+	find . -name __pycache__ -not -path './$(VENV)/*' -prune -exec rm -rf {} +
+
+$(VENV)/made.stamp:
+	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "rrnn_opt needs Python >= 3.11: make PYTHON=python3.11 ..." >&2; exit 1; }
+	@test -x $(PY) && $(PY) -m pip --version >/dev/null 2>&1 || \
+	  "$(PYTHON)" -m venv $(VENV) || \
+	  { echo "could not make .venv: apt install python3-venv" >&2; exit 1; }
+	@touch $@
+
+$(VENV)/demo.stamp: $(VENV)/made.stamp pyproject.toml
+	$(PIP) -e '.[viz]'
+	@touch $@
+
+$(VENV)/test.stamp: $(VENV)/made.stamp pyproject.toml
+	$(PIP) -e '.[test,viz]'
+	@touch $@
+
+$(VENV)/dev.stamp: $(VENV)/made.stamp pyproject.toml
+	$(PIP) -e '.[test,viz,dev]'
+	@touch $@
