@@ -141,8 +141,11 @@ RRNN_EXPORT int32_t NAME(step)(planner_t *planner, const double *q, const double
     if (!world_near(&planner->world, &pose, planner->set.max_step)) {
         return -1;
     }
-    world_rows(&planner->world, &pose);
-    project(planner, q, w, planner->set.max_step, u);
+    project(planner, q, &pose, w, planner->set.max_step, u);
+    for (int32_t p = 0; p < planner->world.near_count; p++) {
+        near_t *pair = &planner->world.near[p];
+        pair->bound = near_bound(pair, w);
+    }
     return planner->world.near_count;
 }
 

@@ -42,7 +42,7 @@ static int is_free(planner_t *planner, const double *q)
     if (!world_near(&planner->world, &pose, planner->set.max_step)) {
         return 0;
     }
-    return world_certify(&planner->world, none, planner->set.max_step,
+    return world_certify(&planner->world, &pose, none, planner->set.max_step,
                          planner->set.slack);
 }
 

@@ -14,15 +14,19 @@ static int piece_verdict(planner_t *planner, const double *middle, const double 
     if (!world_near(world, &pose, radius)) {
         return 0;
     }
-    world_rows(world, &pose);
+    double way[NS + 1];
+    k_travel(h, way);
     int proved = 1;
     for (int32_t p = 0; p < world->near_count; p++) {
-        const near_t *pair = &world->near[p];
-        const double drift = hildreth_dot(NV, pair->row, h);
-        const double loss = drift < 0.0 ? -drift : drift;
+        near_t *pair = &world->near[p];
         if (pair->gap < slack) {
             return -1;
         }
+        if (!proved || pair->gap - near_way(pair, way) >= slack) {
+            continue;
+        }
+        const double drift = hildreth_dot(NV, near_row(pair, &pose), h);
+        const double loss = drift < 0.0 ? -drift : drift;
         if (!(pair->gap - loss - 0.5 * near_bound(pair, h) >= slack)) {
             proved = 0;
         }

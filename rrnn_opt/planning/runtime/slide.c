@@ -43,56 +43,82 @@ static double drive(const planner_t *planner, const double *q, const pose_t *pos
     return error[0] + (tip->has_rotation ? error[1] : 0.0);
 }
 
-/* Adds the rows most violated at u; returns how many. */
-static int32_t violated_rows(const planner_t *planner, const double *u, int32_t *used,
-                             double *rows, double *h, int32_t count)
+typedef struct {
+    near_t *pair;
+    double right;         /* right-hand side of the row, m */
+    int32_t used;
+} candidate_t;
+
+/* Pairs that the wish could close, with their rows at B(w). */
+static int32_t candidates(planner_t *planner, const pose_t *pose, const double *w,
+                          candidate_t *list)
 {
-    const world_t *world = &planner->world;
-    int32_t added = 0;
-    while (added < planner->set.rows_per_pass && count + added < ROW_MAX) {
-        int32_t worst = -1;
-        double least = -1e-9, worst_h = 0.0;
-        for (int32_t p = 0; p < world->near_count; p++) {
-            const near_t *pair = &world->near[p];
-            double right;
-            k_offset(&pair->gap, &planner->set.steering, &pair->bound, &right);
-            const double residual = hildreth_dot(NV, pair->row, u) - right;
-            if (!used[p] && residual < least) {
-                least = residual;
-                worst = p;
-                worst_h = right;
-            }
+    world_t *world = &planner->world;
+    const double *steering = &planner->set.steering;
+    double way[NS + 1];
+    int32_t count = 0;
+    k_travel(w, way);
+    for (int32_t p = 0; p < world->near_count; p++) {
+        near_t *pair = &world->near[p];
+        if (pair->gap - near_way(pair, way) < *steering) {
+            near_row(pair, pose);
+            pair->bound = near_bound(pair, w);
+            list[count].pair = pair;
+            list[count].used = 0;
+            k_offset(&pair->gap, steering, &pair->bound, &list[count].right);
+            count++;
         }
-        if (worst < 0) {
-            break;
-        }
-        used[worst] = 1;
-        memcpy(rows + NV * (count + added), world->near[worst].row,
-               NV * sizeof(double));
-        h[count + added] = worst_h;
-        added++;
     }
-    return added;
+    return count;
+}
+
+/* Puts the rows most violated at u behind the others; returns how many. */
+static int32_t violated_rows(const planner_t *planner, const double *u,
+                             candidate_t *list, int32_t size, double *rows,
+                             double *h, int32_t count)
+{
+    int32_t worst[PASS_MAX], found = 0, most = planner->set.rows_per_pass;
+    double residuals[PASS_MAX];
+    most = most < PASS_MAX ? most : PASS_MAX;
+    most = most < ROW_MAX - count ? most : ROW_MAX - count;
+    for (int32_t c = 0; c < size && most > 0; c++) {
+        const double residual =
+            hildreth_dot(NV, list[c].pair->row, u) - list[c].right;
+        if (list[c].used || residual >= -1e-9 ||
+            (found == most && residual >= residuals[found - 1])) {
+            continue;
+        }
+        int32_t place = found < most ? found++ : found - 1;
+        for (; place > 0 && residuals[place - 1] > residual; place--) {
+            residuals[place] = residuals[place - 1];
+            worst[place] = worst[place - 1];
+        }
+        residuals[place] = residual;
+        worst[place] = c;
+    }
+    for (int32_t i = 0; i < found; i++) {
+        candidate_t *row = &list[worst[i]];
+        row->used = 1;
+        memcpy(rows + NV * (count + i), row->pair->row, NV * sizeof(double));
+        h[count + i] = row->right;
+    }
+    return found;
 }
 
 /* Step of the dual network for the wish w; returns the number of rows used. */
-static int32_t project(planner_t *planner, const double *q, const double *w,
-                       double radius, double *u)
+static int32_t project(planner_t *planner, const double *q, const pose_t *pose,
+                       const double *w, double radius, double *u)
 {
     double rows[NV * ROW_MAX], h[ROW_MAX], lambda[ROW_MAX] = {0}, z[NV] = {0};
     double lower[NV], upper[NV];
-    int32_t used[NEAR_MAX];
+    candidate_t list[NEAR_MAX];
     int32_t count = 0;
-    world_t *world = &planner->world;
-    memset(used, 0, (size_t)world->near_count * sizeof used[0]);
-    for (int32_t p = 0; p < world->near_count; p++) {
-        world->near[p].bound = near_bound(&world->near[p], w);
-    }
+    const int32_t size = candidates(planner, pose, w, list);
     k_box(q, planner->lower, planner->upper, &radius, lower, upper);
     memcpy(u, w, NV * sizeof(double));
     hildreth(NV, 0, rows, h, lower, upper, 1, lambda, z, u);
     for (int32_t pass = 0; pass < planner->set.passes; pass++) {
-        const int32_t added = violated_rows(planner, u, used, rows, h, count);
+        const int32_t added = violated_rows(planner, u, list, size, rows, h, count);
         if (added == 0) {
             break;
         }
@@ -108,14 +134,15 @@ static int32_t project(planner_t *planner, const double *q, const double *w,
 
 /* A certified step towards the wish, which is halved until the proof holds.
  * Returns the number of rows, or -1 when no step above min_step is proved. */
-static int32_t certified_step(planner_t *planner, const double *q, double *w,
-                              double *length, double *u)
+static int32_t certified_step(planner_t *planner, const double *q,
+                              const pose_t *pose, double *w, double *length,
+                              double *u)
 {
     const settings_t *set = &planner->set;
     double wish = norm_of(w);
     for (;;) {
-        const int32_t rows = project(planner, q, w, *length, u);
-        if (world_certify(&planner->world, u, set->max_step, set->slack)) {
+        const int32_t rows = project(planner, q, pose, w, *length, u);
+        if (world_certify(&planner->world, pose, u, set->max_step, set->slack)) {
             return rows;
         }
         wish *= 0.5;
@@ -178,8 +205,7 @@ static slide_end_t slide(planner_t *planner, const double *from,
         if (!world_near(&planner->world, &pose, set->max_step)) {
             return EXHAUSTED;
         }
-        world_rows(&planner->world, &pose);
-        const int32_t rows = certified_step(planner, q, w, &length, u);
+        const int32_t rows = certified_step(planner, q, &pose, w, &length, u);
         planner->steps++;
         if (rows < 0) {
             return STALLED;

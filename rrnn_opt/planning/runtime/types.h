@@ -12,6 +12,7 @@
 #define SHAPE 16
 #define NEAR_MAX 2048
 #define ROW_MAX 32
+#define PASS_MAX 8       /* rows added a pass, at most */
 
 typedef struct {
     double max_step;      /* rad, largest norm of a step */
@@ -51,6 +52,7 @@ typedef struct {
     int32_t sphere;       /* sphere that moves away along n */
     int32_t other;        /* obstacle, or second sphere of a self pair */
     int32_t group;        /* -1: obstacle; else group of the self pair */
+    int32_t has_row;
     double gap;           /* m, promised margin already taken off */
     double n[3];
     double row[NV];

@@ -32,6 +32,7 @@ static near_t *world_add(world_t *world, int32_t sphere, int32_t other,
     pair->other = other;
     pair->group = group;
     pair->gap = gap;
+    pair->has_row = 0;
     memcpy(pair->n, n, 3 * sizeof(double));
     return pair;
 }
@@ -131,15 +132,19 @@ static double near_bound(const near_t *pair, const double *u)
     return moved + other;
 }
 
-/* Row n' J of a pair. */
-static void near_row(near_t *pair, const pose_t *pose)
+/* Row n' J of a pair, written when it is first asked for. */
+static const double *near_row(near_t *pair, const pose_t *pose)
 {
     const int32_t i = pair->sphere, g = pair->group;
     const double *center = pose->centers + 3 * i;
+    if (pair->has_row) {
+        return pair->row;
+    }
+    pair->has_row = 1;
     if (g < 0) {
         k_row(pose->axes, pose->origins, t_mask + NJ * i, center, pair->n,
               pair->row);
-        return;
+        return pair->row;
     }
     double other[NV];
     k_row(pose->axes, pose->origins, t_group_j + NJ * g, center, pair->n, pair->row);
@@ -148,26 +153,33 @@ static void near_row(near_t *pair, const pose_t *pose)
     for (int32_t k = 0; k < NV; k++) {
         pair->row[k] -= other[k];
     }
+    return pair->row;
 }
 
-static void world_rows(world_t *world, const pose_t *pose)
+/* Upper bound of what a motion takes from a pair's gap, from the ways of the
+ * spheres. */
+static double near_way(const near_t *pair, const double *way)
 {
-    for (int32_t p = 0; p < world->near_count; p++) {
-        near_row(&world->near[p], pose);
-    }
+    return way[pair->sphere] + (pair->group < 0 ? 0.0 : way[pair->other]);
 }
 
-/* Proof that q + s u, 0 <= s <= 1, is free: one inequality a near pair.
- * Pairs that are not near are out of reach of |u| <= radius. */
-static int world_certify(const world_t *world, const double *u, double radius,
-                         double slack)
+/* Proof that q + s u, 0 <= s <= 1, is free: one inequality a pair that the
+ * ways of its spheres could close.  Pairs that are not near are out of reach
+ * of |u| <= radius. */
+static int world_certify(world_t *world, const pose_t *pose, const double *u,
+                         double radius, double slack)
 {
+    double way[NS + 1];
     if (hildreth_dot(NV, u, u) > radius * radius * (1.0 + 1e-12)) {
         return 0;
     }
+    k_travel(u, way);
     for (int32_t p = 0; p < world->near_count; p++) {
-        const near_t *pair = &world->near[p];
-        const double drift = hildreth_dot(NV, pair->row, u);
+        near_t *pair = &world->near[p];
+        if (pair->gap - near_way(pair, way) >= slack) {
+            continue;
+        }
+        const double drift = hildreth_dot(NV, near_row(pair, pose), u);
         if (!(pair->gap + drift - 0.5 * near_bound(pair, u) >= slack)) {
             return 0;
         }
