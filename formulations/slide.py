@@ -142,6 +142,7 @@ def slide(kin: Kinematics, contacts: Sequence[int] = ()) -> Formulation:
         lower=lower,
         upper=upper,
         citation="Li, Li, Hannaford, IEEE TII 15(4) 2019, eqs. (3), (10)-(13)",
+        level="increment",
     )
 
 

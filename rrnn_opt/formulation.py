@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal, get_args
 
 import casadi as ca
 import numpy as np
 
-from rrnn_opt.errors import NotFiniteError, ShapeError
+from rrnn_opt.errors import NotFiniteError, RrnnError, ShapeError
 from rrnn_opt.symbolic.lagrangian import Lagrangian
 from rrnn_opt.symbolic.qp import QP
 from rrnn_opt.symbolic.symbol import (
@@ -23,6 +23,9 @@ from rrnn_opt.symbolic.tape import fingerprint
 
 Part = Any
 """An SX column; None may be given for a part that is absent, and becomes SX."""
+
+Level = Literal["velocity", "acceleration", "increment"]
+"""What the joint entries of a decision are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,13 +48,19 @@ class Formulation:
         upper: (n, 1), free of u.
         citation: where the scheme comes from.
         notes: where we differ, and what a user must know.
+        level: what the first nv entries of u are, nv being the robot's
+            coordinates: joint "velocity" (rad/s), "acceleration" (rad/s2) or
+            the "increment" of one step (rad).  What follows them (slacks, the
+            bound of a largest entry) goes to no joint.
+        inverse: matrix whose inverse stands written out in the graph, such as
+            "J J' + damping I"; empty when the scheme is free of inversion.
 
     Raises:
         ShapeError: a part has the wrong shape; nothing is ever broadcast.
         NotAQpError: a part is not what it must be; the message names the
             operation, the row and the subexpression.
         NotFiniteError: a bound is NaN.
-        RrnnError: an undeclared symbol, or two of one name.
+        RrnnError: an undeclared symbol, two of one name, or an unknown level.
     """
 
     name: str
@@ -64,9 +73,14 @@ class Formulation:
     upper: Part = None
     citation: str = ""
     notes: str = ""
+    level: Level = "velocity"
+    inverse: str = ""
 
     def __post_init__(self) -> None:
         n = self.decision.size
+        if self.level not in get_args(Level):
+            known = ", ".join(get_args(Level))
+            raise RrnnError(f"{self.name}: level '{self.level}'; use one of {known}")
         if self.decision.shape != (n, 1):
             raise ShapeError(f"{self.name}: decision", (n, 1), self.decision.shape)
         require_names((self.decision, *self.parameters), self.name)

@@ -123,3 +123,11 @@ def test_frozen_and_fingerprinted():
     assert made.fingerprint == form(equalities=U - 1).fingerprint
     assert made.fingerprint != form(equalities=U - 2).fingerprint
     assert made.fingerprint != form(inequalities=U - 1).fingerprint
+
+
+def test_the_level_is_one_of_three():
+    assert form().level == "velocity"
+    assert form().inverse == ""
+    assert form(level="acceleration").level == "acceleration"
+    with pytest.raises(RrnnError, match="level 'torque'; use one of velocity"):
+        form(level="torque")
