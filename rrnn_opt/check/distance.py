@@ -101,7 +101,8 @@ def signed_distance(obstacle: Obstacle, points: Array) -> Array:
         return _box(local, obstacle.dims)
     if obstacle.kind == "cylinder":
         return _box(_meridian(local), obstacle.dims)
-    return _lengths(_from_core(local, obstacle.dims)) - obstacle.dims[0]
+    far = _lengths(_from_core(local, obstacle.dims))
+    return np.asarray(far - obstacle.dims[0])
 
 
 def normals(obstacle: Obstacle, points: Array) -> Array:
