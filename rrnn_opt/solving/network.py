@@ -20,6 +20,8 @@ from rrnn_opt.symbolic.symbol import Symbol
 ESCAPE = 1e12
 """A residual beyond this means that the steps diverge."""
 
+NEWTON_STEPS = 25
+
 _GLUE = """\
 #define SETTLE_STATE {state}
 #define SETTLE_PARAMETERS {parameters}
@@ -40,7 +42,7 @@ class Run:
 
     Attributes:
         state: where it stopped, (n,).
-        steps: Euler steps made.
+        steps: Euler (or Newton) steps made.
         residual: largest component of the network's residual there.
     """
 
@@ -94,12 +96,41 @@ class RestableNetwork:
         done, residual = self._loop(state, parameters, step, tolerance, max_steps)
         return Run(state, done, residual)
 
+    def newton(
+        self, state: Array, parameters: Sequence[Array], *, tolerance: float
+    ) -> Run:
+        """Newton's method on the network's own residual, which is zero at rest.
+
+        The residual is piecewise linear in the state, so from a state in the
+        right piece one step ends it; where the pieces differ it may fail.
+
+        Args:
+            state: (n,) start; not changed.
+            parameters: as for ``run``.
+            tolerance: on the largest component of the residual.
+        """
+        state = np.array(state, dtype=np.float64)
+        for done in range(NEWTON_STEPS + 1):
+            value, slope = self._linearised.call([state, *parameters])
+            residual = np.asarray(value, dtype=np.float64).ravel()
+            largest = float(np.abs(residual).max())
+            if largest <= tolerance or not largest <= ESCAPE or done == NEWTON_STEPS:
+                break
+            state -= np.linalg.lstsq(np.asarray(slope), residual, rcond=1e-12)[0]
+        return Run(state, done, largest)
+
     def read(self, state: Array, parameters: Sequence[Array]) -> dict[str, Array]:
         """Output ("output") and multipliers by name at a state."""
         values = self._readout.call([state, *parameters])
         names = ["output", *self.dynamics.multipliers]
         flat = (np.asarray(v, dtype=np.float64).ravel() for v in values)
         return dict(zip(names, flat, strict=True))
+
+    @cached_property
+    def _linearised(self) -> ca.Function:
+        dyn = self.dynamics
+        slope = ca.densify(ca.jacobian(dyn.residual, dyn.state.sx))
+        return ca.Function("linearised", _inputs(dyn), [dyn.residual, slope])
 
     @cached_property
     def _readout(self) -> ca.Function:

@@ -30,6 +30,7 @@ class SettleInfo:
     Attributes:
         status: our judgement; a point is returned only with ``has_point``.
         steps: Euler steps in all.
+        newton: Newton steps that finished it; 0 when the network alone did.
         step: the last Euler step used, s.
         residual: KKT residuals of the programme at the equilibrium, computed
             by us; infinite when nothing was reached.
@@ -42,6 +43,7 @@ class SettleInfo:
 
     status: Status
     steps: int
+    newton: int
     step: float
     residual: Residual
     duals: Mapping[str, Array]
@@ -62,6 +64,7 @@ def settle(
     max_steps: int = MAX_STEPS,
     step: float | None = None,
     start: ArrayLike | None = None,
+    newton: bool = True,
     **params: ArrayLike,
 ) -> tuple[Array | None, SettleInfo]:
     """Run a network to its equilibrium and judge it as the QP's optimum.
@@ -80,6 +83,11 @@ def settle(
             if that diverges.
         start: (n,) state to start from; by default u is the point of the box
             nearest to zero and all multipliers are zero.
+        newton: whether Newton steps on the network's own residual may finish
+            what is slow: close to singular postures, and where active bounds
+            leave few joints free, the network needs some
+            1 / (h sigma_min^2 / eps) steps a digit.  The equilibrium is the
+            same; ``info.newton`` tells.
         **params: one array a parameter of the network.
 
     Returns:
@@ -97,6 +105,7 @@ def settle(
         max_steps=max_steps,
         step=step,
         start=start,
+        newton=newton,
     )
 
 
@@ -108,6 +117,7 @@ def settle_at(
     max_steps: int = MAX_STEPS,
     step: float | None = None,
     start: ArrayLike | None = None,
+    newton: bool = True,
 ) -> tuple[Array | None, SettleInfo]:
     """``settle`` with the parameters in a mapping; they may have any name.
 
@@ -118,6 +128,7 @@ def settle_at(
         max_steps: Euler steps in all for one choice of the step.
         step: Euler step h, s, or None.
         start: (n,) state to start from, or None.
+        newton: whether Newton steps may finish it.
 
     Returns:
         As ``settle``.
@@ -135,10 +146,10 @@ def settle_at(
     begin = time.perf_counter()
     first = _start(dyn, problem, start)
     h = settling_step(dyn, first, values) if step is None else step
-    job = Job(network, problem, values, tolerance, max_steps)
-    best = job.rest(first, h)
-    if not best.status.has_point:
-        best = job.insist(first, best)
+    job = Job(network, problem, values, tolerance, max_steps, newton)
+    best = job.insist(first, h)
+    if start is not None and best.status is Status.MAX_ITER:
+        best = job.insist(_start(dyn, problem, None), h)
     return best.x, _info(best, time.perf_counter() - begin)
 
 
@@ -159,15 +170,19 @@ def _start(dyn: NeuralDynamics, problem: Dense, start: ArrayLike | None) -> Arra
 
 
 def _info(attempt: Attempt, time_s: float) -> SettleInfo:
+    message = attempt.status.value
+    if attempt.newton:
+        message += f"; {attempt.newton} Newton steps finished it"
     return SettleInfo(
         status=attempt.status,
         steps=attempt.steps,
+        newton=attempt.newton,
         step=attempt.step,
         residual=attempt.residual,
         duals=attempt.duals,
         state=attempt.state,
         time_s=time_s,
-        message=attempt.status.value,
+        message=message,
     )
 
 
@@ -175,5 +190,5 @@ def _refused(dyn: NeuralDynamics, message: str) -> SettleInfo:
     """An empty bound: nothing was run."""
     nowhere = np.full(dyn.state.size, np.nan)
     return SettleInfo(
-        Status.PRIMAL_INFEASIBLE, 0, 0.0, NOT_JUDGED, {}, nowhere, 0.0, message
+        Status.PRIMAL_INFEASIBLE, 0, 0, 0.0, NOT_JUDGED, {}, nowhere, 0.0, message
     )

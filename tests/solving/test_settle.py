@@ -66,9 +66,37 @@ def test_a_position_outside_its_limits_is_an_empty_bound(network, posture):
 
 
 def test_too_few_steps_say_so(network, posture):
-    x, info = settle(network, q=posture, rd_dot=[0.1, 0.0, 0.0], max_steps=3)
+    given = {"q": posture, "rd_dot": [0.1, 0.0, 0.0], "max_steps": 3}
+    x, info = settle(network, newton=False, **given)
     assert x is None
     assert info.status is Status.MAX_ITER
+    x, info = settle(network, **given)
+    assert info.status is Status.SOLVED
+    assert info.newton > 0
+
+
+def test_newton_finishes_what_the_network_alone_cannot(form, network, posture):
+    """An elbow almost stretched: sigma_min of J is a thousandth."""
+    q = posture.copy()
+    q[[3, 5]] = 1e-3
+    given = {"q": q, "rd_dot": np.array([1e-4, 0.0, 1.7e-4])}
+    x, info = settle(network, newton=False, max_steps=20_000, **given)
+    assert x is None
+    x, info = settle(network, **given)
+    assert info.status.has_point
+    assert info.newton > 0
+    assert "Newton" in info.message
+    want = truth(form, q=q, rd_dot=given["rd_dot"])
+    np.testing.assert_allclose(x, want.x, atol=1e-7)
+    scale = np.abs(want.y).max()
+    np.testing.assert_allclose(info.duals["equality"], -want.y, atol=1e-6 * scale)
+
+
+def test_a_bad_warm_start_is_forgotten(form, network, posture):
+    v = [0.3, 0.4, 0.1]
+    start = np.full(10, 1e8)
+    x, _ = settle(network, q=posture, rd_dot=v, start=start, newton=False)
+    np.testing.assert_allclose(x, truth(form, q=posture, rd_dot=v).x, atol=1e-6)
 
 
 def test_a_step_that_diverges_is_shortened(form, network, posture):
