@@ -205,5 +205,7 @@ def _require_fit(dynamics: NeuralDynamics, nv: int) -> None:
             f"{dynamics.name}: the loop gives {', '.join(_C_NAME)}, "
             f"not parameter '{unknown[0]}'"
         )
-    if dynamics.output.shape != (nv, 1):
+    form = dynamics.formulation
+    velocity = form is None or form.level == "velocity"
+    if not velocity or dynamics.output.shape != (nv, 1):
         raise RrnnError(f"{dynamics.name}: its output is no joint velocity ({nv}, 1)")

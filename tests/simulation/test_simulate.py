@@ -200,6 +200,14 @@ def test_a_task_that_does_not_fit_is_refused(pa10, circle):
         simulate(slide, pa10, task)
 
 
+def test_a_scheme_of_another_level_is_refused(pa10, circle):
+    def accelerations(kin):
+        return replace(position_feedback(kin), level="acceleration")
+
+    with pytest.raises(RrnnError, match="no joint velocity"):
+        simulate(accelerations, pa10, circle())
+
+
 def test_a_diverging_run_says_so(pa10, circle):
     task = circle(law="literal", dt=0.05, steps=1, duration=60.0)
     with pytest.raises(RrnnError, match="diverges"):
