@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
-from typing import Any
 
 from rrnn_opt.cli import named
 from rrnn_opt.cli.folders import folder
@@ -36,7 +34,6 @@ def run(args: argparse.Namespace, out: Output) -> int:
     law = getattr(networks, args.network)()(scheme(Kinematics(robot)))
     package = generate(law, prefix=args.prefix or robot.name, real=args.real)
     written = package.write(target)
-    manifest: dict[str, Any] = json.loads((written / "MANIFEST.json").read_text())
-    out.document(manifest)
+    out.document(package.manifest)
     out.say(f"wrote {written}")
     return 0

@@ -71,7 +71,8 @@ def opened(as_json: bool) -> Iterator[Output]:
     kept = os.dup(1)
     os.dup2(2, 1)
     try:
-        yield Output(True, kept)
+        with contextlib.redirect_stdout(sys.stderr):
+            yield Output(True, kept)
     finally:
         with contextlib.suppress(OSError):
             sys.stdout.flush()

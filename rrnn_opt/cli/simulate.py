@@ -39,7 +39,8 @@ def run(args: argparse.Namespace, out: Output) -> int:
     target = folder(args.out) if args.out is not None else None
     scheme, robot = named.scheme(args.formulation), named.robot(args.robot)
     from rrnn_opt.report import table
-    from rrnn_opt.simulation import load_task, simulate
+    from rrnn_opt.simulation import simulate
+    from rrnn_opt.simulation.task_file import load_task
 
     task = load_task(args.task)
     noise = task.noise

@@ -40,7 +40,7 @@ def velocities(axes: Any, document: dict[str, Any], motion: Motion) -> None:
 
 def memory_cell(axes: Any, activity: Array) -> None:
     """Activity of the memory cell before each exploration."""
-    order = np.arange(1, len(activity) + 1)
+    order = np.arange(1.0, len(activity) + 1.0)
     axes.step(order, activity, where="mid", color=CURVES[3], lw=1.3)
     if len(order) <= 60:
         axes.plot(order, activity, "o", color=CURVES[3], ms=3.2)

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 FRAMES = 80
+MOST_FRAMES = 160
+FRAMES_PER_SECOND = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,20 +35,24 @@ class Motion:
         return len(self.t) > 1
 
 
-def motion_of(document: dict[str, Any], *, frames: int = FRAMES) -> Motion:
+def motion_of(document: dict[str, Any]) -> Motion:
     """Samples of what was delivered, else of the path, else the start.
 
     Args:
         document: plan result.
-        frames: number of samples.
+
+    Returns:
+        ``FRAMES`` samples, up to ``MOST_FRAMES`` of a motion of many seconds.
     """
     trajectory = document.get("trajectory")
     if trajectory and trajectory.get("t"):
-        t = np.linspace(trajectory["t"][0], trajectory["t"][-1], frames)
+        begin, end = trajectory["t"][0], trajectory["t"][-1]
+        wanted = np.clip(FRAMES_PER_SECOND * (end - begin), FRAMES, MOST_FRAMES)
+        t = np.linspace(begin, end, int(wanted))
         return Motion(t, *sample(trajectory, t))
     path = np.atleast_2d(np.asarray(document.get("path") or [], dtype=float))
     if path.size and len(path) > 1:
-        return _along(path, frames)
+        return _along(path, FRAMES)
     start = np.asarray(document["problem"]["start"], dtype=float)
     return Motion(np.zeros(1), start[None, :], None)
 

@@ -82,7 +82,7 @@ class Painter:
             )
         axes.add_collection(
             PolyCollection(
-                faces[order, :, :2],
+                list(faces[order, :, :2]),
                 facecolors=colours[order],
                 edgecolors="none",
                 antialiaseds=False,

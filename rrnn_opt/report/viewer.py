@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 
 INSTALL = "pip install rrnn_opt[viz]"
 LENS = 1.75
-SLOWEST_FRAME = 0.1
+LAST_FRAME = 0.5
 
 
 def scene_html(drawing: Drawing) -> str | None:
@@ -55,11 +55,11 @@ def scene_html(drawing: Drawing) -> str | None:
             placed = [part.placed(drawing.frames[-1]).mesh for part in drawing.parts]
             _add(server.scene, "/end", merged(placed[1:]), END, opacity=0.18)
         recorder = server.get_scene_serializer()
-        steps = np.diff(drawing.motion.t, append=drawing.motion.t[-1:])
-        for k, pause in enumerate(steps):
+        pauses = [*np.diff(drawing.motion.t), LAST_FRAME]
+        for k, pause in enumerate(pauses):
             for joint, handle in handles.items():
                 _place(handle, drawing.frames[k, joint])
-            recorder.insert_sleep(min(float(pause), SLOWEST_FRAME) or 1e-3)
+            recorder.insert_sleep(float(pause))
         html: str = recorder.as_html()
     return html
 
