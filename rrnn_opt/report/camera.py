@@ -59,14 +59,14 @@ def best_view(points: Array, faces: Array, *, cell: float) -> View:
     centres = faces.mean(axis=1)
 
     def score(view: View) -> float:
-        free = _free(view, points, centres, cell)
+        free = unhidden(view, points, centres, cell)
         facing = _facing(view, normals)
         return free + 1.6 * _spread(view, points) + 0.7 * facing - _unusual(view)
 
     return max(views, key=score)
 
 
-def _free(view: View, points: Array, centres: Array, cell: float) -> float:
+def unhidden(view: View, points: Array, centres: Array, cell: float) -> float:
     """Share of points with no face between them and the viewer."""
     seen, hiding = points @ view.axes.T, centres @ view.axes.T
     apart = np.abs(seen[:, None, :2] - hiding[None, :, :2]).max(axis=2)

@@ -1,7 +1,7 @@
 import numpy as np
 
 from rrnn_opt.report import mesh
-from rrnn_opt.report.camera import View, best_view
+from rrnn_opt.report.camera import View, best_view, unhidden
 
 
 def test_axes_are_a_right_handed_frame():
@@ -26,3 +26,13 @@ def test_a_flat_motion_is_seen_from_above():
     arc = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(30)])
     nothing = np.zeros((0, 4, 3))
     assert best_view(arc, nothing, cell=0.1).elevation >= 50.0
+
+
+def test_only_what_stands_in_front_hides():
+    low, high = np.array([0.4, -1.0, -1.0]), np.array([0.42, 1.0, 1.0])
+    wall = mesh.box(low, high, tile=0.1).corners.mean(axis=1)
+    points = np.array([[0.0, 0.0, 0.0], [0.0, 0.3, -0.2]])
+    assert unhidden(View(0.0, 0.0), points, wall, 0.1) == 0.0
+    assert unhidden(View(0.0, 180.0), points, wall, 0.1) == 1.0
+    aside = np.array([[0.0, 0.0, 0.0], [0.0, 5.0, 0.0]])
+    assert unhidden(View(0.0, 0.0), aside, wall, 0.1) == 0.5
