@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import os
+import shlex
+import shutil
+import sys
+from pathlib import Path
 
 from rrnn_opt.cli.arguments import seed
 from rrnn_opt.cli.folders import folder
@@ -39,9 +44,14 @@ def run(args: argparse.Namespace, out: Output) -> int:
 
 
 def following(target: str) -> tuple[str, str, str]:
-    """The next three commands to try."""
-    return (
-        f"rrnn check {target}/plan.json",
-        f"rrnn view {target}/plan.json",
-        "rrnn robots",
-    )
+    """The next three commands to try, as they can be typed here."""
+    rrnn, plan = _called(), shlex.quote(f"{target}/plan.json")
+    return f"{rrnn} check {plan}", f"{rrnn} view {plan}", f"{rrnn} robots"
+
+
+def _called() -> str:
+    """How to call ``rrnn`` from this folder and shell."""
+    beside = Path(sys.executable).with_name("rrnn")
+    if shutil.which("rrnn") or not beside.exists():
+        return "rrnn"
+    return shlex.quote(os.path.relpath(beside))

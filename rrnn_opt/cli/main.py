@@ -8,8 +8,6 @@ run: ``rrnn --help`` loads no numerical library.
 from __future__ import annotations
 
 import argparse
-import contextlib
-import os
 import sys
 from collections.abc import Sequence
 from typing import Any, NoReturn
@@ -82,22 +80,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     words = list(sys.argv[1:] if argv is None else argv)
     name = next((word for word in words if word in COMMANDS), "")
-    try:
-        with opened("--json" in words) as out:
-            return _guarded(words, name, out)
-    except BrokenPipeError:
-        return _silenced()
+    with opened("--json" in words) as out:
+        return _guarded(words, name, out)
 
 
 def _guarded(words: list[str], name: str, out: Output) -> int:
     debug = "--debug" in words
     try:
         args = parser().parse_args(words)
-        status = int(COMMANDS[args.command].run(args, out))
-        sys.stdout.flush()
-        return status
-    except BrokenPipeError:
-        raise
+        return int(COMMANDS[args.command].run(args, out))
     except KeyboardInterrupt:
         return _failed(out, name, "interrupted", INTERRUPTED)
     except RrnnError as error:
@@ -128,15 +119,6 @@ def _failed(out: Output, name: str, text: str, code: int) -> int:
     else:
         out.document({"error": {"kind": kind, "message": sentence}})
     return code
-
-
-def _silenced() -> int:
-    """Nobody reads standard output any more: leave without another word."""
-    with contextlib.suppress(OSError):
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, 1)
-        os.close(nowhere)
-    return FAILED
 
 
 def _version() -> str:

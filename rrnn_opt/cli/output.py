@@ -39,7 +39,10 @@ class Output:
 
     def say(self, text: str = "") -> None:
         """A line for people; with ``--json`` it goes to standard error."""
-        print(text, flush=True)
+        try:
+            print(text, flush=True)
+        except BrokenPipeError:
+            silence(1)
 
     def note(self, text: str) -> None:
         """A line about the run itself, always to standard error."""
@@ -57,8 +60,18 @@ class Output:
             return
         data = (json.dumps(document, allow_nan=False) + "\n").encode()
         self.done = True
-        while data:
-            data = data[os.write(self._descriptor, data) :]
+        try:
+            while data:
+                data = data[os.write(self._descriptor, data) :]
+        except BrokenPipeError:
+            silence(self._descriptor)
+
+
+def silence(descriptor: int) -> None:
+    """Send what follows nowhere: its reader has left, but the work goes on."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, descriptor)
+    os.close(nowhere)
 
 
 @contextlib.contextmanager

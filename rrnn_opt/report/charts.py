@@ -33,7 +33,8 @@ def velocities(axes: Any, document: dict[str, Any], motion: Motion) -> None:
     axes.set_ylim(-1.2, 1.2)
     dress(axes, "joint velocity / limit", "time [s]", motion.t)
     if len(names) <= 8:
-        axes.legend(ncol=4, fontsize=6.5, frameon=False, loc="lower center")
+        spacing = {"columnspacing": 1.0, "handlelength": 1.2}
+        axes.legend(ncol=4, fontsize=6.5, frameon=False, loc="lower center", **spacing)
         axes.set_ylim(-1.75, 1.2)
         axes.set_yticks([-1, -0.5, 0, 0.5, 1])
 

@@ -182,7 +182,13 @@ def _key(figure: Any, drawing: Drawing) -> None:
         figure.text(x + 0.076, 0.024, "time along the tip path", **NOTE)
         x += 0.21
     if drawing.missing:
-        figure.text(x, 0.024, "not drawn: " + ", ".join(drawing.missing), **NOTE)
+        figure.text(x, 0.024, "not drawn: " + _some(drawing.missing), **NOTE)
+
+
+def _some(names: list[str]) -> str:
+    """The first names, and how many more there are."""
+    more = len(names) - 2
+    return ", ".join(names[:2]) + (f" and {more} more" if more > 0 else "")
 
 
 def _places(count: int) -> list[tuple[float, float, float, float]]:
