@@ -20,6 +20,7 @@ from rrnn_opt.formulations.slide import (
     tip_attraction,
 )
 from rrnn_opt.networks import MemoryCell
+from rrnn_opt.planning.dispatch import dispatch
 from rrnn_opt.planning.tables import tables
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.robot.bound import ancestor_mask, reach
@@ -55,7 +56,11 @@ def _function(
 
 
 def frames_function(kin: Kinematics) -> ca.Function:
-    """``q -> axes, origins, centers, tip_position, tip_rotation``."""
+    """``q -> axes, origins, centers, tip_position, tip_rotation``.
+
+    Centres lie coordinate by coordinate, (ns, 3), so that loops over spheres
+    read contiguous numbers.
+    """
     tip = kin.pose()
     return _function(
         "k_frames",
@@ -63,7 +68,7 @@ def frames_function(kin: Kinematics) -> ca.Function:
         {
             "axes": kin.axes(),
             "origins": kin.origins(),
-            "centers": kin.sphere_centres(),
+            "centers": ca.transpose(kin.sphere_centres()),
             "tip_position": tip[:3, 3],
             "tip_rotation": tip[:3, :3],
         },
@@ -181,12 +186,16 @@ def drive_functions(robot: Robot) -> list[ca.Function]:
     ]
 
 
-def pair_function() -> ca.Function:
-    """Distance of two points and the unit vector from the first to the second."""
+def pair_functions() -> list[ca.Function]:
+    """Distance of two points, alone and with the unit vector between them."""
     a, b = ca.SX.sym("a", 3), ca.SX.sym("b", 3)
     d = ca.sqrt(ca.sumsqr(b - a))
     n = (b - a) / ca.fmax(d, 1e-12)
-    return _function("k_distance_pair", {"a": a, "b": b}, {"d": d, "n": n})
+    points = {"a": a, "b": b}
+    return [
+        _function("k_gap_pair", points, {"d": d}),
+        _function("k_distance_pair", points, {"d": d, "n": n}),
+    ]
 
 
 def cell_functions(cell: MemoryCell) -> list[ca.Function]:
@@ -198,18 +207,11 @@ def cell_functions(cell: MemoryCell) -> list[ca.Function]:
     ]
 
 
-def dispatch() -> str:
-    """C switch from the kind of an obstacle to its distance function."""
-    cases = "".join(
-        f"    case {i}: k_distance_{kind}(p, shape, d, n); break;\n"
-        for i, kind in enumerate(PRIMITIVES)
-    )
-    return (
-        "static void k_distance(int32_t kind, const double p[3],\n"
-        "                       const double shape[16], double *d, double n[3])\n"
-        "{\n    switch (kind) {\n"
-        f"{cases}"
-        "    default: *d = -1e300; n[0] = n[1] = n[2] = 0.0; break;\n    }\n}\n"
+def gap_function(kind: str) -> ca.Function:
+    """Distance of a point to a solid without its normal: ``p, shape -> d``."""
+    p, shape = ca.SX.sym("p", 3), ca.SX.sym("shape", 16)
+    return _function(
+        f"k_gap_{kind}", {"p": p, "shape": shape}, {"d": PRIMITIVES[kind](p, shape)[0]}
     )
 
 
@@ -219,13 +221,14 @@ def emitted(robot: Robot, cell: MemoryCell) -> str:
         frames_function(Kinematics(robot)),
         *row_functions(robot),
         *drive_functions(robot),
-        pair_function(),
+        *pair_functions(),
         *cell_functions(cell),
     ]
     named = [(f, f.name()) for f in functions]
     named += [(distance_function(kind), f"k_distance_{kind}") for kind in PRIMITIVES]
+    named += [(gap_function(kind), f"k_gap_{kind}") for kind in PRIMITIVES]
     texts = [emit.c_function(f, name) for f, name in named]
-    return "\n".join([tables(robot), *texts, dispatch()])
+    return "\n".join([tables(robot), *texts, dispatch(tuple(PRIMITIVES))])
 
 
 def source(robot: Robot, cell: MemoryCell) -> str:

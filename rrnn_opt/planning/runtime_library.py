@@ -26,6 +26,8 @@ from rrnn_opt.planning.structs import (
 from rrnn_opt.robot import Robot
 
 Array = NDArray[np.float64]
+FLAGS = ("-O3",)
+"""Loops over spheres vectorise at this level; it changes no rounding."""
 STATUS = {0: "paused", 1: "solved", 2: "budget_exhausted", 3: "no_goal_posture"}
 
 
@@ -34,7 +36,9 @@ class Runtime:
 
     def __init__(self, robot: Robot, cell: MemoryCell) -> None:
         self.robot = robot
-        self.built = emit.build(source(robot, cell), name=f"planner_{robot.nv}")
+        self.built = emit.build(
+            source(robot, cell), name=f"planner_{robot.nv}", flags=FLAGS
+        )
         self._library = emit.load(self.built)
 
     def function(self, name: str, result: Any, *arguments: Any) -> Any:

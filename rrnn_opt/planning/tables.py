@@ -43,7 +43,10 @@ def levers(robot: Robot, reaches: Array, mask: Array) -> Array:
 def _pair_groups(
     robot: Robot,
 ) -> tuple[list[tuple[int, int]], list[int], list[tuple[Array, Array]]]:
-    """Sphere pairs, the group of each, and each group's two joint masks."""
+    """Sphere pairs sorted by group, the group of each, each group's joint masks.
+
+    A group holds the pairs of two joints' bodies.
+    """
     tree = robot.tree
     pairs = robot.sphere_pairs()
     index: dict[tuple[int, int], int] = {}
@@ -65,7 +68,8 @@ def _pair_groups(
             index[key] = len(masks)
             masks.append((first, second))
         groups.append(index[key])
-    return pairs, groups, masks
+    order = np.argsort(groups, kind="stable")
+    return [pairs[k] for k in order], [groups[k] for k in order], masks
 
 
 def tables(robot: Robot) -> str:
@@ -79,6 +83,7 @@ def tables(robot: Robot) -> str:
         )
         for (i, j), g in zip(pairs, groups, strict=True)
     ]
+    bounds = range(len(masks) + 1)
     sizes = {
         "NV": robot.nv,
         "NJ": robot.tree.nj,
@@ -98,7 +103,7 @@ def tables(robot: Robot) -> str:
             _c_table(double, "t_lever", levers(robot, reaches, mask)),
             _c_table(integer, "t_pair_i", [i for i, _ in pairs]),
             _c_table(integer, "t_pair_j", [j for _, j in pairs]),
-            _c_table(integer, "t_pair_group", groups),
+            _c_table(integer, "t_group_first", np.searchsorted(groups, bounds)),
             _c_table(double, "t_pair_lever", pair_levers),
             _c_table(double, "t_group_i", np.ravel([m[0] for m in masks])),
             _c_table(double, "t_group_j", np.ravel([m[1] for m in masks])),

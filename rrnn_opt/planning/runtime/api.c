@@ -53,7 +53,7 @@ RRNN_EXPORT planner_t *NAME(create)(const settings_t *settings, const request_t 
     if (planner == NULL) {
         return NULL;
     }
-    const size_t keys = (size_t)NS * (size_t)request->obstacle_count + 1;
+    const size_t keys = (size_t)request->obstacle_count + 1;
     const size_t tips = (size_t)request->tip_goal_count + 1;
     planner->set = *settings;
     planner->world.count = request->obstacle_count;

@@ -14,7 +14,7 @@ static int piece_verdict(planner_t *planner, const double *middle, const double 
     if (!world_near(world, &pose, radius)) {
         return 0;
     }
-    double way[NS + 1];
+    double way[NS];
     k_travel(h, way);
     int proved = 1;
     for (int32_t p = 0; p < world->near_count; p++) {

@@ -55,7 +55,7 @@ static int32_t candidates(planner_t *planner, const pose_t *pose, const double *
 {
     world_t *world = &planner->world;
     const double *steering = &planner->set.steering;
-    double way[NS + 1];
+    double way[NS];
     int32_t count = 0;
     k_travel(w, way);
     for (int32_t p = 0; p < world->near_count; p++) {

@@ -44,7 +44,7 @@ typedef struct {
 } tip_goal_t;
 
 typedef struct {
-    double axes[3 * NJ], origins[3 * NJ], centers[3 * NS + 3];
+    double axes[3 * NJ], origins[3 * NJ], centers[3 * NS];
     double tip_position[3], tip_rotation[9];
 } pose_t;
 
@@ -64,10 +64,9 @@ typedef struct {
     const int32_t *kind;
     const double *shape;
     double margin;        /* m, promised clearance from obstacles */
-    double *key;          /* NS x count: fresh while key > way of the sphere */
-    double least[NS + 1]; /* least key of a sphere */
-    double pair_key[NP + 1];
-    double way[NS + 1];   /* m, upper bound of the way since the last reset */
+    double *key;          /* an obstacle is out of reach while key > way */
+    double group_key[NG + 1];
+    double way;           /* m, longest way of a sphere since the last reset */
     near_t near[NEAR_MAX];
     int32_t near_count;
 } world_t;

@@ -6,17 +6,22 @@ static void pose_at(const double *q, pose_t *pose)
              pose->tip_rotation);
 }
 
+/* Centre of sphere i; centres lie coordinate by coordinate. */
+static void center_of(const pose_t *pose, int32_t i, double *p)
+{
+    p[0] = pose->centers[i];
+    p[1] = pose->centers[NS + i];
+    p[2] = pose->centers[2 * NS + i];
+}
+
 static void world_reset(world_t *world)
 {
-    for (int32_t i = 0; i < NS; i++) {
-        world->least[i] = -1.0;
-        world->way[i] = 0.0;
+    world->way = 0.0;
+    for (int32_t o = 0; o < world->count; o++) {
+        world->key[o] = -1.0;
     }
-    for (size_t i = 0; i < (size_t)NS * (size_t)world->count; i++) {
-        world->key[i] = -1.0;
-    }
-    for (int32_t i = 0; i < NP; i++) {
-        world->pair_key[i] = -1.0;
+    for (int32_t g = 0; g < NG; g++) {
+        world->group_key[g] = -1.0;
     }
 }
 
@@ -37,47 +42,53 @@ static near_t *world_add(world_t *world, int32_t sphere, int32_t other,
     return pair;
 }
 
-static int world_obstacles(world_t *world, const pose_t *pose, int32_t i,
-                           double radius)
+/* Adds the spheres near obstacle o; 0 when the list overflows. */
+static int world_obstacle(world_t *world, const pose_t *pose, int32_t o,
+                          double radius)
 {
-    const double horizon = radius * t_lever[i];
-    double least = 1e300;
-    double *key = world->key + (size_t)i * (size_t)world->count;
-    for (int32_t o = 0; o < world->count; o++) {
-        if (key[o] <= world->way[i]) {
-            double d, n[3];
-            k_distance(world->kind[o], pose->centers + 3 * i,
-                       world->shape + SHAPE * o, &d, n);
-            const double gap = d - t_radius[i] - world->margin;
-            key[o] = gap > horizon ? world->way[i] + gap - horizon : world->way[i];
-            if (gap <= horizon && !world_add(world, i, o, -1, gap, n)) {
+    const int32_t kind = world->kind[o];
+    const double *shape = world->shape + SHAPE * o;
+    double distance[NS], least = 1e300;
+    k_gaps(kind, shape, pose->centers, distance);
+    for (int32_t i = 0; i < NS; i++) {
+        const double gap = distance[i] - t_radius[i] - world->margin;
+        const double spare = t_moves[i] ? gap - radius * t_lever[i] : 1e300;
+        least = spare < least ? spare : least;
+        if (spare <= 0.0) {
+            double p[3], n[3], d;
+            center_of(pose, i, p);
+            k_distance(kind, p, shape, &d, n);
+            if (!world_add(world, i, o, -1, gap, n)) {
                 return 0;
             }
         }
-        least = key[o] < least ? key[o] : least;
     }
-    world->least[i] = least;
+    world->key[o] = world->way + least;
     return 1;
 }
 
-static int world_pairs(world_t *world, const pose_t *pose, double radius)
+/* Adds the near pairs of group g; 0 when the list overflows. */
+static int world_group(world_t *world, const pose_t *pose, int32_t g, double radius)
 {
-    for (int32_t p = 0; p < NP; p++) {
+    const int32_t first = t_group_first[g], last = t_group_first[g + 1];
+    double distance[NP + 1], least = 1e300;
+    k_pair_gaps(first, last, pose->centers, distance);
+    for (int32_t p = first; p < last; p++) {
         const int32_t i = t_pair_i[p], j = t_pair_j[p];
-        const double way = world->way[i] + world->way[j];
-        if (world->pair_key[p] > way) {
-            continue;
-        }
-        double d, n[3];
-        const double horizon = radius * t_pair_lever[p];
-        k_distance_pair(pose->centers + 3 * i, pose->centers + 3 * j, &d, n);
-        const double gap = d - t_radius[i] - t_radius[j];
-        world->pair_key[p] = gap > horizon ? way + gap - horizon : way;
-        if (gap <= horizon &&
-            !world_add(world, j, i, t_pair_group[p], gap, n)) {
-            return 0;
+        const double gap = distance[p - first] - t_radius[i] - t_radius[j];
+        const double spare = gap - radius * t_pair_lever[p];
+        least = spare < least ? spare : least;
+        if (spare <= 0.0) {
+            double a[3], b[3], d, n[3];
+            center_of(pose, i, a);
+            center_of(pose, j, b);
+            k_distance_pair(a, b, &d, n);
+            if (!world_add(world, j, i, g, gap, n)) {
+                return 0;
+            }
         }
     }
+    world->group_key[g] = 2.0 * world->way + least;
     return 1;
 }
 
@@ -86,36 +97,40 @@ static int world_pairs(world_t *world, const pose_t *pose, double radius)
 static int world_near(world_t *world, const pose_t *pose, double radius)
 {
     world->near_count = 0;
-    for (int32_t i = 0; i < NS; i++) {
-        if (t_moves[i] && world->least[i] <= world->way[i] &&
-            !world_obstacles(world, pose, i, radius)) {
+    for (int32_t o = 0; o < world->count; o++) {
+        if (world->key[o] <= world->way && !world_obstacle(world, pose, o, radius)) {
             return 0;
         }
     }
-    return world_pairs(world, pose, radius);
+    for (int32_t g = 0; g < NG; g++) {
+        if (world->group_key[g] <= 2.0 * world->way &&
+            !world_group(world, pose, g, radius)) {
+            return 0;
+        }
+    }
+    return 1;
 }
 
 /* Does a pair break its promised clearance?  Stops at the first that does. */
 static int world_hit(const world_t *world, const pose_t *pose)
 {
-    double d, n[3];
-    for (int32_t i = 0; i < NS; i++) {
-        const double *center = pose->centers + 3 * i;
-        for (int32_t o = 0; t_moves[i] && o < world->count; o++) {
-            k_distance(world->kind[o], center, world->shape + SHAPE * o, &d, n);
-            if (d - t_radius[i] - world->margin < 0.0) {
-                return 1;
-            }
+    double distance[NS + NP];
+    for (int32_t o = 0; o < world->count; o++) {
+        int hit = 0;
+        k_gaps(world->kind[o], world->shape + SHAPE * o, pose->centers, distance);
+        for (int32_t i = 0; i < NS; i++) {
+            hit |= t_moves[i] && distance[i] - t_radius[i] - world->margin < 0.0;
         }
-    }
-    for (int32_t p = 0; p < NP; p++) {
-        const int32_t i = t_pair_i[p], j = t_pair_j[p];
-        k_distance_pair(pose->centers + 3 * i, pose->centers + 3 * j, &d, n);
-        if (d - t_radius[i] - t_radius[j] < 0.0) {
+        if (hit) {
             return 1;
         }
     }
-    return 0;
+    int hit = 0;
+    k_pair_gaps(0, NP, pose->centers, distance);
+    for (int32_t p = 0; p < NP; p++) {
+        hit |= distance[p] - t_radius[t_pair_i[p]] - t_radius[t_pair_j[p]] < 0.0;
+    }
+    return hit;
 }
 
 /* Motion bound B of a pair for the increment u. */
@@ -136,11 +151,12 @@ static double near_bound(const near_t *pair, const double *u)
 static const double *near_row(near_t *pair, const pose_t *pose)
 {
     const int32_t i = pair->sphere, g = pair->group;
-    const double *center = pose->centers + 3 * i;
+    double center[3];
     if (pair->has_row) {
         return pair->row;
     }
     pair->has_row = 1;
+    center_of(pose, i, center);
     if (g < 0) {
         k_row(pose->axes, pose->origins, t_mask + NJ * i, center, pair->n,
               pair->row);
@@ -148,8 +164,8 @@ static const double *near_row(near_t *pair, const pose_t *pose)
     }
     double other[NV];
     k_row(pose->axes, pose->origins, t_group_j + NJ * g, center, pair->n, pair->row);
-    k_row(pose->axes, pose->origins, t_group_i + NJ * g,
-          pose->centers + 3 * pair->other, pair->n, other);
+    center_of(pose, pair->other, center);
+    k_row(pose->axes, pose->origins, t_group_i + NJ * g, center, pair->n, other);
     for (int32_t k = 0; k < NV; k++) {
         pair->row[k] -= other[k];
     }
@@ -169,7 +185,7 @@ static double near_way(const near_t *pair, const double *way)
 static int world_certify(world_t *world, const pose_t *pose, const double *u,
                          double radius, double slack)
 {
-    double way[NS + 1];
+    double way[NS];
     if (hildreth_dot(NV, u, u) > radius * radius * (1.0 + 1e-12)) {
         return 0;
     }
@@ -187,12 +203,13 @@ static int world_certify(world_t *world, const pose_t *pose, const double *u,
     return 1;
 }
 
-/* Adds the way of a step u to every sphere. */
+/* Adds the longest way of a sphere in the step u. */
 static void world_advance(world_t *world, const double *u)
 {
-    double way[NS + 1];
+    double way[NS], longest = 0.0;
     k_travel(u, way);
     for (int32_t i = 0; i < NS; i++) {
-        world->way[i] += way[i];
+        longest = way[i] > longest ? way[i] : longest;
     }
+    world->way += longest;
 }
