@@ -17,6 +17,7 @@ _HOME = {
     "Symbol": "rrnn_opt.symbolic",
     "Formulation": "rrnn_opt.formulation",
     "NeuralDynamics": "rrnn_opt.dynamics",
+    "DiscreteDynamics": "rrnn_opt.dynamics",
     "Euler": "rrnn_opt.dynamics",
     "LyapunovFunction": "rrnn_opt.lyapunov",
     "Claim": "rrnn_opt.claim",

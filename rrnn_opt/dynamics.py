@@ -1,8 +1,12 @@
-"""Neural dynamics as data: an ODE whose equilibrium is the programme's optimum."""
+"""Neural dynamics as data: an ODE or a map that comes to rest at the optimum."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from abc import ABC
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any, ClassVar, Self
 
 import casadi as ca
 
@@ -15,6 +19,9 @@ from rrnn_opt.symbolic.symbol import (
     require_names,
     require_shape,
 )
+
+Part = Any
+"""An SX column; None may be given for zeros, and becomes SX."""
 
 
 @dataclass(frozen=True)
@@ -38,51 +45,52 @@ class Euler:
             raise RrnnError(f"Euler step {self.h}: it must be positive and finite")
 
 
-@dataclass(frozen=True, eq=False)
-class NeuralDynamics:
-    """``x' = f(x, parameters)``.
+class Dynamics(ABC):
+    """What an ODE and a map have in common: everything that a run reads.
 
     Attributes:
         name: a C identifier.
         state: x, (n, 1).  A network made from a formulation stacks the
-            formulation's own symbols, so its derivative and a function of the
-            decision or the multipliers speak of the same variables.
-        parameters: everything else that f depends on.
-        derivative: f, (n, 1), unit of x per second.
+            formulation's own symbols where it can, so its law and a function
+            of the decision or the multipliers speak of the same variables.
+        parameters: everything else that the law depends on.
         output: what the network tells the robot, any column.
         residual: zero exactly at equilibrium, (n, 1).
         multipliers: named dual variables as expressions: "lam" of the equality
             rows, "mu" of the inequality rows, "z_box" of the bounds.
         formulation: what it was made from, if anything.
         notes: what a user must know.
-
-    Raises:
-        ShapeError: a part has the wrong shape.
-        RrnnError: an undeclared symbol, or two of one name.
+        start: where a run begins, (n, 1), of the parameters; zeros by default.
+        rates: time derivatives that the network is told, by the name of what
+            moves; each is one of the parameters.
     """
 
     name: str
     state: Symbol
     parameters: tuple[Symbol, ...]
-    derivative: ca.SX
     output: ca.SX
     residual: ca.SX
-    multipliers: dict[str, ca.SX] = field(default_factory=dict)
-    formulation: Formulation | None = None
-    notes: str = ""
+    multipliers: dict[str, ca.SX]
+    formulation: Formulation | None
+    notes: str
+    start: Part
+    rates: Mapping[str, Symbol]
+
+    _law: ClassVar[str]
 
     def __post_init__(self) -> None:
         shape = (self.state.size, 1)
         require_shape(self.state.sx, shape, f"{self.name}: state")
         require_names(self._symbols, self.name)
-        rows = self.output.size1()
-        for part, want in (("derivative", shape), ("residual", shape)):
+        if self.start is None:
+            object.__setattr__(self, "start", ca.SX.zeros(*shape))
+        wanted = {self._law: shape, "residual": shape, "start": shape}
+        wanted["output"] = (self.output.size1(), 1)
+        for part, want in wanted.items():
             value = dense(getattr(self, part), want, f"{self.name}: {part}")
             object.__setattr__(self, part, value)
-        output = dense(self.output, (rows, 1), f"{self.name}: output")
-        object.__setattr__(self, "output", output)
-        for part in ("derivative", "residual", "output"):
-            require_declared(getattr(self, part), self._symbols, f"{self.name}: {part}")
+            symbols = self.parameters if part == "start" else self._symbols
+            require_declared(value, symbols, f"{self.name}: {part}")
 
     @property
     def _symbols(self) -> tuple[Symbol, ...]:
@@ -99,65 +107,144 @@ class NeuralDynamics:
         """
         return dict(self.multipliers)
 
-    def functions(self) -> dict[str, ca.Function]:
-        """From state and parameters to "derivative", "output", "residual", "duals"."""
+    @cached_property
+    def frozen(self) -> Self:
+        """The same network over data that stand still: every rate is zero."""
+        if not self.rates:
+            return self
+        moving = {s.name for s in self.rates.values()}
+        parts = [self._law, "output", "residual", "start"]
+        told = [getattr(self, part) for part in parts] + [*self.multipliers.values()]
+        gone = [s.sx for s in self.rates.values()]
+        still = ca.substitute(told, gone, [ca.SX.zeros(*s.shape) for s in gone])
+        changes: dict[str, Any] = dict(zip(parts, still, strict=False))
+        changes["multipliers"] = dict(
+            zip(self.multipliers, still[len(parts) :], strict=True)
+        )
+        changes["parameters"] = tuple(
+            p for p in self.parameters if p.name not in moving
+        )
+        return replace(self, rates={}, **changes)  # type: ignore[type-var]
+
+    def _common(self) -> dict[str, ca.Function]:
         made = {
             name: self._function(name, {name: getattr(self, name)})
-            for name in ("derivative", "output", "residual")
+            for name in ("output", "residual")
         }
         if self.multipliers:
             made["duals"] = self._function("duals", self.multipliers)
         return made
 
-    def step(self, method: Euler) -> Step:
-        """One step of an integrator, symbolic.
+    def _function(self, name: str, outputs: dict[str, ca.SX]) -> ca.Function:
+        names = [s.name for s in self._symbols]
+        inputs = [s.sx for s in self._symbols]
+        return ca.Function(name, inputs, [*outputs.values()], names, [*outputs])
+
+
+@dataclass(frozen=True, eq=False)
+class NeuralDynamics(Dynamics):
+    """``x' = f(x, parameters)``; see ``Dynamics`` for what is not listed here.
+
+    Attributes:
+        derivative: f, (n, 1), unit of x per second.
+        longest_step: Euler step, s, beyond which the network does not come to
+            rest whatever its modes at one state say; infinite when they tell.
+
+    Raises:
+        ShapeError: a part has the wrong shape.
+        RrnnError: an undeclared symbol, or two of one name.
+    """
+
+    name: str
+    state: Symbol
+    parameters: tuple[Symbol, ...]
+    derivative: ca.SX
+    output: ca.SX
+    residual: ca.SX
+    multipliers: dict[str, ca.SX] = field(default_factory=dict)
+    formulation: Formulation | None = None
+    notes: str = ""
+    start: Part = None
+    rates: Mapping[str, Symbol] = field(default_factory=dict)
+    longest_step: float = float("inf")
+
+    _law: ClassVar[str] = "derivative"
+
+    def functions(self) -> dict[str, ca.Function]:
+        """From state and parameters to "derivative", "output", "residual", "duals"."""
+        law = {"derivative": self.derivative}
+        return {"derivative": self._function("derivative", law)} | self._common()
+
+    def step(self, method: Euler) -> DiscreteDynamics:
+        """One step of an integrator, as a map.
 
         Args:
             method: the integrator with its step size.
 
         Returns:
-            The next state and a function for it.
+            The map; the step size is its last parameter when it is a symbol.
         """
         extra = (method.h,) if isinstance(method.h, Symbol) else ()
         h = method.h.sx if isinstance(method.h, Symbol) else method.h
-        following = self.state.sx + h * self.derivative
-        return Step(self.state, (*self.parameters, *extra), following, self.output)
-
-    def _function(self, name: str, outputs: dict[str, ca.SX]) -> ca.Function:
-        return _function(name, self._symbols, outputs)
+        return DiscreteDynamics(
+            name=self.name,
+            state=self.state,
+            parameters=(*self.parameters, *extra),
+            next=self.state.sx + h * self.derivative,
+            output=self.output,
+            residual=self.residual,
+            multipliers=self.multipliers,
+            formulation=self.formulation,
+            notes=self.notes,
+            start=self.start,
+            rates=self.rates,
+        )
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
-    """A map from one state to the next.
+class DiscreteDynamics(Dynamics):
+    """``x+ = g(x, parameters)``; see ``Dynamics`` for what is not listed here.
+
+    An iteration, or one step of an integrator.
 
     Attributes:
-        state: x, (n, 1).
-        parameters: everything else, the step size last when it is a symbol.
-        next: x+, (n, 1).
+        next: g, (n, 1).
         output: output at x, before the step.
 
     Raises:
-        RrnnError: two symbols of one name.
+        ShapeError: a part has the wrong shape.
+        RrnnError: an undeclared symbol, or two of one name.
     """
 
+    name: str
     state: Symbol
     parameters: tuple[Symbol, ...]
     next: ca.SX
     output: ca.SX
+    residual: ca.SX
+    multipliers: dict[str, ca.SX] = field(default_factory=dict)
+    formulation: Formulation | None = None
+    notes: str = ""
+    start: Part = None
+    rates: Mapping[str, Symbol] = field(default_factory=dict)
 
-    def __post_init__(self) -> None:
-        require_names((self.state, *self.parameters), "step")
+    _law: ClassVar[str] = "next"
 
     def functions(self) -> dict[str, ca.Function]:
-        """``{"step": f}``: state and parameters in; "next", "output" out."""
-        outputs = {"next": self.next, "output": self.output}
-        return {"step": _function("step", (self.state, *self.parameters), outputs)}
+        """``{"step": f}``: state and parameters in; "next", "output" out; and more.
 
+        The others are "output", "residual" and "duals".
+        """
+        law = {"next": self.next, "output": self.output}
+        return {"step": self._function("step", law)} | self._common()
 
-def _function(
-    name: str, symbols: tuple[Symbol, ...], outputs: dict[str, ca.SX]
-) -> ca.Function:
-    values = list(outputs.values())
-    names = [s.name for s in symbols]
-    return ca.Function(name, [s.sx for s in symbols], values, names, [*outputs])
+    def step(self, method: Euler) -> DiscreteDynamics:
+        """This map: one iteration has no step size.
+
+        Args:
+            method: nothing changes by it; a symbolic step size becomes the
+                last parameter, so that a caller runs a map and an ODE alike.
+        """
+        if not isinstance(method.h, Symbol):
+            return self
+        return replace(self, parameters=(*self.parameters, method.h))

@@ -2,7 +2,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from rrnn_opt.dynamics import Euler, NeuralDynamics
+from rrnn_opt.dynamics import DiscreteDynamics, Euler, NeuralDynamics
 from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.symbolic import Symbol
 
@@ -76,3 +76,65 @@ def test_a_scalar_is_no_derivative(part):
 def test_undeclared_symbols_are_named(part):
     with pytest.raises(RrnnError, match=f"decay: {part}: depends on z_"):
         make(**{part: x.sx + ca.SX.sym("z", 2)})
+
+
+def halving(**parts):
+    given = {"next": x.sx / 2, "output": x.sx, "residual": x.sx} | parts
+    return DiscreteDynamics("halving", x, (p,), **given)
+
+
+def test_a_map_is_its_own_step():
+    law = halving()
+    assert law.step(Euler(0.1)) is law
+    h = Symbol.scalar("h", "s")
+    told = law.step(Euler(h))
+    assert [s.name for s in told.parameters] == ["p", "h"]
+    following, output = told.functions()["step"]([2, 4], [0, 0], 0.3)
+    assert np.asarray(following).ravel().tolist() == [1.0, 2.0]
+    assert np.asarray(output).ravel().tolist() == [2.0, 4.0]
+
+
+def test_a_step_keeps_what_a_run_reads():
+    law = make(start=p.sx + 1)
+    step = law.step(Euler(0.25))
+    assert isinstance(step, DiscreteDynamics)
+    assert step.multipliers == law.multipliers
+    assert set(step.functions()) == {"step", "output", "residual", "duals"}
+    for part in ("start", "residual", "output"):
+        assert ca.is_equal(getattr(step, part), getattr(law, part), 5)
+
+
+@pytest.mark.parametrize("build", [make, halving])
+def test_a_run_starts_where_the_parameters_say(build):
+    assert np.asarray(ca.DM(build().start)).ravel().tolist() == [0.0, 0.0]
+    with pytest.raises(RrnnError, match="start: depends on x_0"):
+        build(start=x.sx)
+    with pytest.raises(ShapeError, match="start"):
+        build(start=ca.SX(1))
+
+
+def test_frozen_data_have_no_rates():
+    speed = Symbol.vector("p_rate", 2, "1/s")
+    law = NeuralDynamics(
+        "law",
+        x,
+        (p, speed),
+        derivative=p.sx - x.sx + speed.sx,
+        output=x.sx + speed.sx,
+        residual=p.sx - x.sx + speed.sx,
+        multipliers={"lam": speed.sx[0] + x.sx[1]},
+        start=speed.sx,
+        rates={"p": speed},
+    )
+    still = law.frozen
+    assert still.parameters == (p,)
+    assert not still.rates
+    assert still.frozen is still
+    functions = still.functions()
+    assert np.asarray(functions["derivative"]([1, 2], [3, 5])).ravel().tolist() == [
+        2,
+        3,
+    ]
+    assert np.asarray(functions["output"]([1, 2], [3, 5])).ravel().tolist() == [1, 2]
+    assert float(functions["duals"]([1, 2], [3, 5])) == 2.0
+    assert np.asarray(ca.DM(still.start)).ravel().tolist() == [0.0, 0.0]
