@@ -3,6 +3,9 @@
 static int open_exploration(planner_t *planner, int is_random)
 {
     const int64_t index = planner->random + planner->heuristic;
+    if (index >= planner->budget) {
+        return 0;
+    }
     if (!grow(planner, (void **)&planner->cells, &planner->cell_room,
               (int32_t)index + 1, sizeof(double))) {
         return 0;
@@ -30,6 +33,7 @@ static slide_end_t explore(planner_t *planner, int side, int32_t from,
 {
     int32_t first, count;
     double q[NV];
+    *last = -1;
     if (!open_exploration(planner, is_random)) {
         return EXHAUSTED;
     }
@@ -127,6 +131,7 @@ static double seconds(void)
 static plan_status_t search(planner_t *planner, int64_t budget, double slice)
 {
     const double begin = seconds();
+    planner->budget = budget;
     while (!planner->out_of_memory) {
         if (planner->random + planner->heuristic >= budget) {
             return BUDGET;

@@ -119,7 +119,7 @@ typedef struct {
     double *cells;        /* activity before each exploration */
     int32_t cell_room;
     double activity;
-    int64_t random, heuristic, steps;
+    int64_t random, heuristic, steps, budget;
     int32_t roots, turns, random_turns, ik_failures;
     int32_t done[2];      /* nodes where the trees meet; done[1] = -1: none */
     double *path;
