@@ -62,8 +62,12 @@ def contacts_of(kin: Kinematics, spheres: Sequence[int]) -> Contacts:
 
 
 def near(clearance: ca.SX, distance: float) -> ca.SX:
-    """1 where a clearance is at most ``distance`` (m), else 0."""
-    return ca.if_else(clearance <= distance, ca.SX(1), ca.SX(0))
+    """1 where a clearance is at most ``distance`` (m), else 0.
+
+    The comparison itself: as a conditional, CasADi would take a factor in the
+    decision inside it.
+    """
+    return clearance <= distance
 
 
 def clearance_rows(contacts: Contacts, u: ca.SX, *, gamma: float, safe: float) -> ca.SX:

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 from rrnn_opt.errors import NotFiniteError, RrnnError, ShapeError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
+from rrnn_opt.formulations.task import POSITION, tracking, velocity
 from rrnn_opt.robot import Kinematics
-from rrnn_opt.symbolic import Symbol, require_shape
 
 _CITATION = (
     "Y. Li, S. Li, B. Hannaford, IEEE Trans. Industrial Informatics "
@@ -28,6 +28,7 @@ def minimum_velocity(
     W: ArrayLike | None = None,
     c: ArrayLike | None = None,
     frame: str | None = None,
+    task: str = POSITION,
     c1: float = 0.5,
     c2: float = 0.5,
 ) -> Formulation:
@@ -42,18 +43,20 @@ def minimum_velocity(
         W: symmetric positive semidefinite weight, (nv, nv); I/2 by default.
         c: linear weight, (nv,), rad/s or m/s; 0 by default.
         frame: the frame that follows; the tip by default.
+        task: "position": rd_dot is the velocity of the frame's origin, (3,),
+            m/s; "pose": linear then angular velocity, (6,), m/s and rad/s.
         c1: of (10) at the lower limits, 1/s.
         c2: of (10) at the upper limits, 1/s.
 
     Returns:
         Formulation in the joint velocity ``u`` (nv,) with parameters ``q``
-        (nv,) and ``rd_dot`` (3,).  The multiplier of its rows is the lambda
+        (nv,) and ``rd_dot`` (3,) or (6,).  The multiplier of its rows is the lambda
         of (4).
 
     Raises:
         ShapeError: W or c has the wrong shape.
         NotFiniteError: W or c holds NaN or an infinity.
-        RrnnError: W is not symmetric; c1 or c2 is not positive.
+        RrnnError: W is not symmetric; c1 or c2 is not positive; no such task.
         NotAQpError: W is not positive semidefinite.
         RobotError: there is no such frame.
 
@@ -62,19 +65,14 @@ def minimum_velocity(
         of W only symmetry; semidefiniteness is needed for (5) to be an
         optimum, definiteness for the network (6) to reach it.
     """
-    nv = kin.robot.nv
-    u = Symbol.vector("u", nv, "rad/s or m/s", "joint velocity")
-    q = Symbol("q", kin.q, "rad or m", "joint positions")
-    rd_dot = Symbol.vector("rd_dot", 3, "m/s", "desired velocity of the frame")
-    J = kin.jacobian(frame)
-    require_shape(J, (3, nv), "Jacobian")
+    u, wanted = velocity(kin), tracking(kin, frame, task)
     lower, upper = velocity_bounds(kin.q, kin.robot.limits, c1=c1, c2=c2)
     return Formulation(
         name="minimum_velocity",
         decision=u,
-        parameters=(q, rd_dot),
+        parameters=(wanted.q, wanted.rate),
         cost=_cost(u.sx, W, c),
-        equalities=rd_dot.sx - J @ u.sx,
+        equalities=wanted.rate.sx - wanted.jacobian @ u.sx,
         lower=lower,
         upper=upper,
         citation=_CITATION,

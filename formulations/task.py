@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import casadi as ca
 
 from rrnn_opt.errors import RrnnError
+from rrnn_opt.formulation import Formulation
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.symbolic import Symbol, require_shape
 
@@ -100,3 +101,71 @@ def require_not_negative(**numbers: float) -> None:
     for name, value in numbers.items():
         if not 0.0 <= value < float("inf"):
             raise RrnnError(f"{name} {value}: it must be finite and not negative")
+
+
+def follow(
+    kin: Kinematics,
+    task: Task,
+    *,
+    name: str,
+    wish: ca.SX,
+    parameters: tuple[Symbol, ...] = (),
+    bounds: tuple[ca.SX, ca.SX] | None = None,
+    citation: str,
+    notes: str,
+) -> Formulation:
+    """Follow the task exactly, and a wish in what self-motion is left.
+
+        minimise    1/2 u'u - wish'u   ( = 1/2 |u - wish|^2 + constant )
+        subject to  rd_dot - J u = 0,    bounds
+
+    Without active bounds its optimum is ``J# rd_dot + (I - J# J) wish``.
+
+    Args:
+        kin: kinematics of the robot.
+        task: what is followed.
+        name: of the scheme.
+        wish: joint velocity that would be liked, (nv, 1), rad/s or m/s.
+        parameters: symbols of the wish besides q.
+        bounds: of u, if any.
+        citation: of the scheme.
+        notes: of the scheme.
+    """
+    u = velocity(kin)
+    lower, upper = bounds if bounds is not None else (None, None)
+    return Formulation(
+        name=name,
+        decision=u,
+        parameters=(task.q, task.rate, *parameters),
+        cost=ca.dot(u.sx, u.sx) / 2 - ca.dot(wish, u.sx),
+        equalities=task.rate.sx - task.jacobian @ u.sx,
+        lower=lower,
+        upper=upper,
+        citation=citation,
+        notes=notes,
+    )
+
+
+def acceleration(kin: Kinematics) -> Symbol:
+    """``u``, the joint acceleration as a decision."""
+    return Symbol.vector("u", kin.robot.nv, "rad/s2 or m/s2", "joint acceleration")
+
+
+def joint_velocity(kin: Kinematics) -> Symbol:
+    """``qd``, the joint velocity as a parameter."""
+    return Symbol.vector("qd", kin.robot.nv, "rad/s or m/s", "joint velocity")
+
+
+def target_acceleration() -> Symbol:
+    """``rd_ddot``, the desired acceleration of a frame."""
+    meaning = "desired acceleration of the frame"
+    return Symbol.vector("rd_ddot", 3, "m/s2", meaning)
+
+
+def regulation_cost(
+    kin: Kinematics, u: Symbol, rd: Symbol, *, frame: str | None, epsilon: float
+) -> ca.SX:
+    """1/2 u'u - (1/epsilon) (rd - r(q))'J(q) u, the cost that (17) belongs to."""
+    require_positive(epsilon=epsilon)
+    error = (rd.sx - kin.position(frame)) / epsilon
+    return ca.dot(u.sx, u.sx) / 2 - ca.dot(kin.jacobian(frame).T @ error, u.sx)
