@@ -4,16 +4,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import casadi as ca
+import numpy as np
+from numpy.typing import ArrayLike
 
 from rrnn_opt.dynamics import NeuralDynamics
-from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
-from rrnn_opt.symbolic.symbol import Symbol
+from rrnn_opt.networks import whitening
+from rrnn_opt.networks.coefficients import coefficients
+from rrnn_opt.networks.network import (
+    ARITHMETIC,
+    CLIPPING,
+    Needs,
+    Network,
+    require_positive,
+    rows,
+)
+from rrnn_opt.networks.parts import lagrangian_parts
 
 
 @dataclass(frozen=True)
-class PrimalDual:
+class PrimalDual(Network):
     """The rule that turns a formulation into the network (6).
 
         epsilon u'      = -u + P_Omega(u - dL/du)            (6a)
@@ -31,20 +41,23 @@ class PrimalDual:
 
     Attributes:
         epsilon: time constant, s.
+        whiten: whether the equality rows are whitened; see ``whitening``.
+        delta: of the whitening.
 
     Raises:
-        RrnnError: epsilon is not positive and finite.
+        RrnnError: epsilon or delta is not positive and finite.
 
     Source:
         Li, Li, Hannaford (IEEE TII 2019), eq. (6).  The paper has no
-        inequality rows besides the box.
+        inequality rows besides the box, and no whitening.
     """
 
     epsilon: float = 0.01
+    whiten: bool = False
+    delta: float = 1e-6
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.epsilon < float("inf"):
-            raise RrnnError(f"epsilon {self.epsilon}: it must be positive and finite")
+        require_positive("PrimalDual", epsilon=self.epsilon, delta=self.delta)
 
     def __call__(self, form: Formulation) -> NeuralDynamics:
         """The network of ``form``.
@@ -56,27 +69,55 @@ class PrimalDual:
             Dynamics with state (u, lambda, mu), output u, and the KKT residual
             as equilibrium residual.
         """
-        law = form.lagrangian
-        multipliers = {s.name: s.sx for s in law.symbols[1:]}
-        if form.qp.bounded:
-            multipliers["z_box"] = law.bound_dual
-        return NeuralDynamics(
-            name=f"primal_dual_{form.name}",
-            state=_state(law.symbols),
-            parameters=form.parameters,
-            derivative=law.residual / self.epsilon,
-            output=form.decision.sx,
-            residual=law.residual,
-            multipliers=multipliers,
-            formulation=form,
+        if self.whiten:
+            return whitening.whitened(self._made, form, self.delta)
+        return self._made(form)
+
+    def needs(self, form: Formulation) -> Needs:
+        """No inverse unless whitened; converges for a positive definite Hessian."""
+        return Needs(
+            inverse=whitening.inverse_of(form, whiten=self.whiten),
+            duals=rows(form),
+            state=form.decision.size + rows(form),
+            definite=True,
         )
 
+    @property
+    def operations(self) -> frozenset[str]:
+        """Products, sums and projections; a factorisation when whitened."""
+        extra = whitening.OPERATIONS if self.whiten else frozenset()
+        return ARITHMETIC | CLIPPING | extra
 
-def _state(symbols: tuple[Symbol, ...]) -> Symbol:
-    """The decision itself, or (u, lambda, mu) stacked as one symbol."""
-    if len(symbols) == 1:
-        return symbols[0]
-    stacked = ca.vertcat(*(s.sx for s in symbols))
-    units = ", ".join(s.unit for s in symbols)
-    meaning = "stacked " + ", ".join(s.name for s in symbols)
-    return Symbol("state", stacked, units, meaning)
+    def euler_bound(self, form: Formulation, **parameters: ArrayLike) -> float:
+        """The step at which no mode grows, whichever bounds and rows are active.
+
+        A projected coordinate has the mode -1/epsilon.  The others are minus
+        the eigenvalues s of a principal part of H over epsilon; with p- <= P <=
+        p+ and sigma the largest singular value of the rows, s is real and at
+        most max(p+, 1), or |s| <= sigma and Re s >= p-/2.  Hence
+
+            h <= epsilon min(2, 2 / p+, p- / sigma^2).
+
+        Args:
+            form: what the network is made from.
+            **parameters: one array a parameter of the formulation.
+
+        Returns:
+            The bound, s; 0 when the Hessian is singular.
+        """
+        if self.whiten:
+            form = whitening.Whitened.of(form, self.delta).form
+        P, A, G = coefficients(form, parameters)
+        curvature = np.linalg.eigvalsh(P)
+        sigma = np.linalg.norm(np.vstack([A, G]), 2) if len(A) + len(G) else 0.0
+        swing = curvature[0] / sigma**2 if sigma > 0.0 else np.inf
+        longest = min(2.0, 2.0 / max(curvature[-1], 1.0), swing)
+        return self.epsilon * max(float(longest), 0.0)
+
+    def _made(self, form: Formulation) -> NeuralDynamics:
+        parts = lagrangian_parts(form)
+        return NeuralDynamics(
+            name=f"primal_dual_{form.name}",
+            derivative=parts["residual"] / self.epsilon,
+            **parts,
+        )
