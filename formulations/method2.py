@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import casadi as ca
 
 from rrnn_opt.formulation import Formulation
+from rrnn_opt.formulations.acceleration_limits import acceleration_bounds
 from rrnn_opt.formulations.contacts import Contacts, contacts_of
-from rrnn_opt.formulations.limits import acceleration_bounds
 from rrnn_opt.formulations.signs import (
     Band,
     active,

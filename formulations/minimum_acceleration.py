@@ -5,7 +5,7 @@ from __future__ import annotations
 import casadi as ca
 
 from rrnn_opt.formulation import Formulation
-from rrnn_opt.formulations.limits import braking_bounds
+from rrnn_opt.formulations.acceleration_limits import braking_bounds
 from rrnn_opt.formulations.task import (
     acceleration,
     joint_velocity,

@@ -1,7 +1,9 @@
 """Seeded parameters for any scheme, by the names that schemes share."""
 
-import casadi as ca
+import functools
+
 import numpy as np
+import qpsolvers
 
 
 def posture(kin, rng):
@@ -12,25 +14,35 @@ def posture(kin, rng):
     return low + (high - low) * rng.uniform(0.3, 0.7, kin.robot.nv)
 
 
-def jacobian(kin, q, kind="position", frame=None):
-    f = ca.Function("J", [kin.q], [kin.jacobian(frame, kind=kind)])
-    return np.asarray(f(q))
+@functools.cache
+def functions(kin):
+    """Building them takes longer than calling them."""
+    return kin.functions()
+
+
+def jacobian(kin, q, kind="position"):
+    name = {"position": "jacobian", "pose": "pose_jacobian"}[kind]
+    return np.asarray(functions(kin)[name](q))
 
 
 def jacobian_rate(kin, q, qd):
-    return np.asarray(kin.functions()["jacobian_dot"](q, qd))
+    return np.asarray(functions(kin)["jacobian_dot"](q, qd))
 
 
 def tip(kin, q):
-    return np.asarray(kin.functions()["position"](q)).ravel()
+    return np.asarray(functions(kin)["position"](q)).ravel()
+
+
+def centre(kin, index, q):
+    """Centre of a sphere, (3,)."""
+    return np.asarray(functions(kin)["sphere_centres"](q))[:, index]
 
 
 def sphere_jacobian(kin, index, q):
     """By central differences of the centre: an oracle for contacts.py."""
-    centres = ca.Function("c", [kin.q], [kin.sphere_centres()[:, index]])
     steps = 1e-6 * np.eye(kin.robot.nv)
-    columns = [(np.asarray(centres(q + s) - centres(q - s)) / 2e-6) for s in steps]
-    return np.hstack(columns)
+    columns = [centre(kin, index, q + s) - centre(kin, index, q - s) for s in steps]
+    return np.column_stack(columns) / 2e-6
 
 
 def bounds10(kin, q, c=0.5):
@@ -61,7 +73,7 @@ def parameters(form, kin, seed, *, size=0.05):
         kind = "pose" if rows == 6 else "position"
         return jacobian(kin, q, kind) @ rng.uniform(-size, size, nv)
 
-    given = {name: rng.uniform(0.01, 0.05, shape) for name, shape in shapes.items()}
+    given = {name: rng.uniform(0.01, 0.05, shape[0]) for name, shape in shapes.items()}
     given |= {"q": q}
     for name in shapes.keys() & {"rd_dot", "rd_ddot", "error", "e_int"}:
         scale = 0.01 if name in ("error", "e_int") else 1.0
@@ -76,3 +88,21 @@ def parameters(form, kin, seed, *, size=0.05):
         given["normals"] = unit_normals(kin, rng, shapes["normals"][1])
         given["clearances"] = rng.uniform(0.06, 0.2, shapes["clearances"][0])
     return given
+
+
+def solve(form, given):
+    """The optimum by DAQP, a solver that shares nothing with us."""
+    best = qpsolvers.solve_problem(form.qp.at(**given), "daqp", primal_tol=1e-11)
+    assert best.found, given
+    return best.x
+
+
+def data(form, given):
+    """The numbers of the programme, by name."""
+    problem = form.qp.at(**given)
+    return {k: getattr(problem, k) for k in ("P", "q", "A", "b", "G", "h", "lb", "ub")}
+
+
+def roomy(form, kin, seed, **changes):
+    """Parameters at which no joint bound will be active."""
+    return parameters(form, kin, seed, size=0.01) | changes

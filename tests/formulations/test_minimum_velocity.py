@@ -120,3 +120,21 @@ def test_far_outside_the_limits_the_box_is_empty(arm):
 def test_bad_settings_are_refused(arm, changes, error):
     with pytest.raises(error):
         rr.formulations.minimum_velocity(arm, **changes)
+
+
+@pytest.mark.parametrize("name", ["pa10", "panda"])
+def test_the_pose_task_has_six_rows_and_the_pose_pseudoinverse(name):
+    arm = rr.Kinematics(rr.Robot.builtin(name))
+    form = rr.formulations.minimum_velocity(arm, task="pose")
+    q, rate = posture(arm, 3), np.array([0.01, -0.005, 0.01, 0.02, -0.01, 0.015])
+    jacobian = np.asarray(arm.functions()["pose_jacobian"](q))
+    problem = form.qp.at(q=q, rd_dot=rate)
+    np.testing.assert_allclose(problem.A, jacobian, atol=1e-15)
+    np.testing.assert_array_equal(problem.b, rate)
+    best = qpsolvers.solve_problem(problem, solver="daqp")
+    np.testing.assert_allclose(best.x, np.linalg.pinv(jacobian) @ rate, atol=1e-9)
+
+
+def test_there_are_two_kinds_of_task(arm):
+    with pytest.raises(RrnnError, match="task 'gaze': use 'position' or 'pose'"):
+        rr.formulations.minimum_velocity(arm, task="gaze")

@@ -1,0 +1,259 @@
+"""What each way of avoiding an obstacle admits, and what it does not."""
+
+import numpy as np
+import pytest
+import qpsolvers
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rrnn_opt.errors import RrnnError
+from rrnn_opt.formulations import (
+    clearance_rows,
+    gradient_projection,
+    joint_sign_sets,
+    position_feedback,
+    sign_rows,
+    slack_task,
+    task_augmentation,
+)
+from tests.formulations.points import (
+    bounds10,
+    centre,
+    data,
+    jacobian,
+    parameters,
+    posture,
+    roomy,
+    solve,
+    sphere_jacobian,
+    tip,
+    unit_normals,
+)
+
+LAWS = settings(derandomize=True, max_examples=40, deadline=None)
+UPRIGHT = np.array([np.pi / 2, 0.0, 0.0])
+LEFT_WALL = np.array([[1.0], [0.0], [0.0]])  # outward normal of a wall at the left
+
+
+def last(kin):
+    return len(kin.robot.spheres) - 1
+
+
+def near(kin, seed, *, gap=0.01, k=1):
+    """A posture with critical contacts of random normals."""
+    rng = np.random.default_rng(seed)
+    q = posture(kin, rng)
+    gaps, n = np.full(k, gap), unit_normals(kin, rng, k)
+    return {"q": q, "normals": n, "clearances": gaps}
+
+
+def admits(form, given, u):
+    """Whether u satisfies all bounds and rows."""
+    p = form.qp.at(**given)
+    inside = np.all((p.lb - 1e-12 <= u) & (u <= p.ub + 1e-12))
+    return bool(inside and (p.G is None or np.all(p.G @ u <= p.h + 1e-12)))
+
+
+# the witness of (12)
+
+
+def upright(kin):
+    goal = {"q": UPRIGHT, "rd": tip(kin, UPRIGHT)}
+    return goal | {"normals": LEFT_WALL, "clearances": np.array([0.02])}
+
+
+def test_index_sign_sets_admit_a_motion_into_the_obstacle(planar3):
+    """Arm straight up, wall to the left: turning joint 1 forwards goes left."""
+    sphere, into = last(planar3), np.array([1.0, 0.0, 0.0])
+    approach = -LEFT_WALL.T @ sphere_jacobian(planar3, sphere, UPRIGHT) @ into
+    assert approach > 2.0  # m/s, towards the wall
+    given = upright(planar3)
+    printed = joint_sign_sets(planar3, contacts=(sphere,), reading="index")
+    assert admits(printed, given, 0.5 * into)
+    for other in (
+        clearance_rows(planar3, contacts=(sphere,), safe=0.02),
+        sign_rows(planar3, contacts=(sphere,)),
+        joint_sign_sets(planar3, contacts=(sphere,)),
+    ):
+        assert not admits(other, given, 0.5 * into), other.name
+        assert admits(other, given, -0.5 * into), other.name
+
+
+def rollout(kin, form, *, steps=150, h=0.01):
+    """Least clearance of the tip's sphere on the way to a target in the wall."""
+    sphere, q = last(kin), np.array([1.3, 0.3, 0.4])
+    wall = centre(kin, sphere, q)[0] - kin.robot.spheres[sphere].radius - 0.1
+    goal, least = tip(kin, q) - np.array([0.4, 0.0, 0.0]), np.inf
+    for _ in range(steps):
+        gap = centre(kin, sphere, q)[0] - kin.robot.spheres[sphere].radius - wall
+        least = min(least, gap)
+        given = {"q": q, "rd": goal, "normals": LEFT_WALL}
+        q = q + h * solve(form, given | {"clearances": np.array([gap])})
+    return least
+
+
+def test_only_the_index_reading_goes_through_the_wall(planar3):
+    chosen = {"contacts": (last(planar3),)}
+    assert rollout(planar3, joint_sign_sets(planar3, reading="index", **chosen)) < -0.1
+    assert rollout(planar3, joint_sign_sets(planar3, safe=0.05, **chosen)) > 0.0
+    assert rollout(planar3, sign_rows(planar3, safe=0.05, **chosen)) > 0.0
+    kept = rollout(planar3, clearance_rows(planar3, safe=0.02, **chosen))
+    assert 0.015 < kept < 0.03  # it uses the room it has
+
+
+# joint sign sets
+
+
+def test_transpose_sign_sets_are_what_they_say(every):
+    sphere = last(every)
+    form = joint_sign_sets(every, contacts=(sphere,))
+    for seed in range(5):
+        given = near(every, seed) | {"rd": np.zeros(3)}
+        low, high = bounds10(every, given["q"])
+        J = sphere_jacobian(every, sphere, given["q"])
+        push = (J.T @ given["normals"]).ravel()
+        moves = np.abs(J).max(axis=0) > 1e-7
+        clear = moves & (np.abs(push) > 1e-7)
+        p = form.qp.at(**given)
+        np.testing.assert_allclose(p.lb[clear], np.where(push > 0, 0, low)[clear])
+        np.testing.assert_allclose(p.ub[clear], np.where(push < 0, 0, high)[clear])
+        far = form.qp.at(**given | {"clearances": np.array([0.06])})
+        np.testing.assert_allclose(far.lb, low)
+        np.testing.assert_allclose(far.ub, high)
+
+
+@LAWS
+@given(st.integers(0, 999), st.lists(st.floats(0, 1), min_size=7, max_size=7))
+def test_transpose_sets_and_sign_rows_admit_no_approach(arms, seed, share):
+    kin, sphere = arms["pa10"], last(arms["pa10"])
+    given = near(kin, seed) | {"rd": np.zeros(3)}
+    box = joint_sign_sets(kin, contacts=(sphere,)).qp.at(**given)
+    u = box.lb + (box.ub - box.lb) * np.array(share)
+    rate = given["normals"].T @ sphere_jacobian(kin, sphere, given["q"])
+    assert rate @ u >= -1e-7
+    rows = sign_rows(kin, contacts=(sphere,)).qp.at(**given)
+    if np.all(rows.G @ u <= rows.h):
+        assert rate @ u >= -1e-7
+
+
+def test_two_contacts_can_freeze_the_arm(planar3):
+    chosen = {"contacts": (last(planar3),) * 2}
+    given = upright(planar3) | {
+        "rd": tip(planar3, UPRIGHT) - np.array([0.0, 0.3, 0.0]),
+        "normals": np.hstack([LEFT_WALL, -LEFT_WALL]),
+        "clearances": np.array([0.02, 0.02]),
+    }
+    given["q"] = UPRIGHT + np.array([0.05, -0.1, 0.05])
+    stuck = joint_sign_sets(planar3, **chosen)
+    np.testing.assert_allclose(solve(stuck, given), 0.0, atol=1e-12)
+    free = clearance_rows(planar3, safe=0.02, **chosen)
+    assert np.linalg.norm(solve(free, given)) > 0.1
+
+
+@pytest.mark.parametrize("scheme", [joint_sign_sets, sign_rows, clearance_rows])
+def test_without_contacts_all_are_position_feedback(every, scheme):
+    given = parameters(scheme(every), every, 3)
+    ours, theirs = data(scheme(every), given), data(position_feedback(every), given)
+    for name, value in ours.items():
+        np.testing.assert_array_equal(value, theirs[name])
+
+
+def test_a_reading_is_one_of_two(pa10):
+    with pytest.raises(RrnnError, match="use 'transpose' or 'index'"):
+        joint_sign_sets(pa10, reading="literal")
+
+
+# rows
+
+
+def test_sign_rows_block_what_the_linear_row_lets_slide(pa10):
+    sphere = last(pa10)
+    given = near(pa10, 4) | {"rd": np.zeros(3)}
+    n = np.array([1.0, 1.0, 0.0]) / np.sqrt(2)  # an oblique wall
+    given |= {"normals": n[:, None], "clearances": np.array([0.02])}
+    J = sphere_jacobian(pa10, sphere, given["q"])
+    u = 0.01 * np.linalg.pinv(J) @ np.array([1.0, -1.0, 0.0])  # along it
+    assert abs(n @ J @ u) < 1e-9
+    assert not admits(sign_rows(pa10, contacts=(sphere,)), given, u)
+    tolerant = given | {"clearances": np.array([0.02 + 1e-9])}
+    assert admits(clearance_rows(pa10, contacts=(sphere,), safe=0.02), tolerant, u)
+
+
+@pytest.mark.parametrize("scheme", [clearance_rows, slack_task])
+def test_the_linear_row_is_the_rate_of_the_clearance(every, scheme):
+    chosen = (last(every) // 2, last(every))
+    form = scheme(every, contacts=chosen, gamma=3.0, safe=0.02)
+    given = parameters(form, every, 5) | {"clearances": np.array([0.07, 0.01])}
+    p = form.qp.at(**given)
+    for i, sphere in enumerate(chosen):
+        J = sphere_jacobian(every, sphere, given["q"])
+        rate = given["normals"][:, i] @ J
+        np.testing.assert_allclose(-p.G[i, : every.robot.nv], rate, atol=1e-8)
+        assert not p.G[i, every.robot.nv :].any()
+    np.testing.assert_allclose(p.h, [3 * 0.05, -3 * 0.01], atol=1e-14)
+
+
+# task augmentation
+
+
+def test_task_augmentation_makes_the_clearance_grow_as_asked(every):
+    sphere = last(every) // 2
+    form = task_augmentation(every, contacts=(sphere,), gamma=2.0, safe=0.05)
+    given = roomy(form, every, 6, clearances=np.array([0.049]))
+    u = solve(form, given)
+    J = jacobian(every, given["q"])
+    rate = given["normals"].T @ sphere_jacobian(every, sphere, given["q"]) @ u
+    np.testing.assert_allclose(rate, 2.0 * 0.001, atol=1e-7)
+    np.testing.assert_allclose(J @ u, given["rd_dot"], atol=1e-8)
+    far = form.qp.at(**given | {"clearances": np.array([0.051])})
+    assert not far.A[3].any()
+    assert far.b[3] == 0.0
+
+
+def test_with_all_redundancy_used_up_the_solution_is_unique(planar3):
+    sphere = last(planar3) // 2
+    form = task_augmentation(planar3, contacts=(sphere,), safe=0.05)
+    given = roomy(form, planar3, 7, clearances=np.array([0.05]))
+    square = form.qp.at(**given).A[[0, 1, 3]]
+    right = form.qp.at(**given).b[[0, 1, 3]]
+    np.testing.assert_allclose(
+        solve(form, given), np.linalg.solve(square, right), atol=1e-9
+    )
+
+
+def test_more_rows_than_spare_degrees_of_freedom_are_refused(planar3, pa10):
+    with pytest.raises(RrnnError, match="2 rows, but only 1 to spare"):
+        task_augmentation(planar3, contacts=(0, 1))
+    task_augmentation(pa10, contacts=(20, 30, 40, 42))
+    with pytest.raises(RrnnError, match="5 rows, but only 4 to spare"):
+        task_augmentation(pa10, contacts=(10, 20, 30, 40, 42))
+
+
+# gradient projection
+
+
+def test_gradient_projection_is_the_classical_formula(every):
+    chosen = (last(every) // 2, last(every))
+    form = gradient_projection(every, contacts=chosen, gain=0.5, influence=0.1)
+    given = parameters(form, every, 8) | {"clearances": np.array([0.03, 0.2])}
+    J = jacobian(every, given["q"])
+    pinv = np.linalg.pinv(J)
+    nearer = sphere_jacobian(every, chosen[0], given["q"])
+    u0 = 0.5 * (1 - 0.3) * nearer.T @ given["normals"][:, 0]
+    classical = pinv @ given["rd_dot"] + (np.eye(len(u0)) - pinv @ J) @ u0
+    np.testing.assert_allclose(solve(form, given), classical, atol=1e-7)
+    assert not form.inverse
+    plain = gradient_projection(every)
+    only = {name: given[name] for name in ("q", "rd_dot")}
+    np.testing.assert_allclose(solve(plain, only), pinv @ given["rd_dot"], atol=1e-8)
+
+
+def test_gradient_projection_may_run_into_what_it_shuns(planar3):
+    """The wish is bounded; a task towards the wall is not slowed by it."""
+    sphere = last(planar3)
+    form = gradient_projection(planar3, contacts=(sphere,))
+    q = np.array([1.3, 0.3, 0.4])
+    given = {"q": q, "rd_dot": np.array([-0.1, 0.0, 0.0]), "normals": LEFT_WALL}
+    problem = form.qp.at(**given, clearances=np.array([0.0]))
+    u = qpsolvers.solve_problem(problem, solver="daqp").x
+    assert (LEFT_WALL.T @ sphere_jacobian(planar3, sphere, q) @ u).item() < -0.05
