@@ -122,10 +122,10 @@ def _rows(written: law.Law, result: PlanResult) -> tuple[tuple[str, str], ...]:
         ),
         ("certified steps", f"{stats.rollout_steps}"),
         ("plan", f"{1e3 * stats.plan_time_s:.2f} ms"),
-        ("shortcut and retiming", f"{1e3 * stats.retime_time_s:.1f} ms"),
+        ("refinement", f"{1e3 * stats.refine_time_s:.1f} ms"),
+        ("retiming", f"{1e3 * stats.retime_time_s:.1f} ms"),
         ("certificate", f"{1e3 * certificate['time_s']:.1f} ms"),
         ("trajectory", f"{result.trajectory['duration']:.2f} s"),
         ("proved clearance", f"{clearance:.3g} mm"),
-        ("law in C", _built(written)),
-        ("planner in C", f"ready in {stats.compile_time_s:.2f} s"),
+        ("code in C", f"law {_built(written)}; planner {stats.compile_time_s:.2f} s"),
     )

@@ -38,6 +38,7 @@ RUNTIME = (
     "goals.c",
     "search.c",
     "segment.c",
+    "shorten.c",
     "api.c",
 )
 PREFIX = "rrnn_planner_"
@@ -143,44 +144,61 @@ def _turn_jacobian(tree: JointTree, moving: tuple[int, ...], axes: ca.SX) -> ca.
     return ca.horzcat(*columns)
 
 
+def _miss(goal: ca.SX, axes: ca.SX, half: ca.SX, tip: ca.SX) -> ca.SX:
+    """From the tip to the nearest point of the goal's region, (3, 1), m."""
+    local = axes.T @ (goal - tip)
+    return axes @ (local - ca.fmax(-half, ca.fmin(local, half)))
+
+
+def _turn_error(turn: ca.SX, wanted: ca.SX, free: ca.SX) -> tuple[ca.SX, ca.SX]:
+    """Twist towards the wanted axes, (3, 1), and chord 2 sin(angle / 2).
+
+    With all three axes wanted both are means over the three; with a free one
+    only that axis has to point the right way, and nothing turns about it.
+    """
+    weights = [free[i] + (1 - ca.sum1(free)) / 2 for i in range(3)]
+    columns = [(turn[:, i], wanted[:, i]) for i in range(3)]
+    pairs = list(zip(weights, columns, strict=True))
+    twist = sum((c * ca.cross(a, b) for c, (a, b) in pairs), ca.SX(0))
+    return twist, ca.sqrt(sum((c * ca.sumsqr(a - b) for c, (a, b) in pairs), ca.SX(0)))
+
+
 def drive_functions(robot: Robot) -> list[ca.Function]:
-    """Attractions: to a posture, to a tip position, to a tip pose."""
+    """Attractions: to a posture, to a tip position or region, to a tip pose."""
     tree, nj, nv = robot.tree, robot.tree.nj, robot.nv
     moving = tree.ancestors(robot.frame().joint)
     axes, origins = ca.SX.sym("axes", 3, nj), ca.SX.sym("origins", 3, nj)
     tip, turn = ca.SX.sym("tip_position", 3), ca.SX.sym("tip_rotation", 3, 3)
     goal, wanted = ca.SX.sym("position", 3), ca.SX.sym("rotation", 3, 3)
+    half, free = ca.SX.sym("half", 3), ca.SX.sym("free", 3)
     q, target, length = ca.SX.sym("q", nv), ca.SX.sym("target", nv), ca.SX.sym("length")
     linear = _tip_jacobian(tree, moving, axes, origins, tip)
-    full = ca.vertcat(linear, _turn_jacobian(tree, moving, axes))
-    miss = goal - tip
-    twist = sum((ca.cross(turn[:, i], wanted[:, i]) for i in range(3)), ca.SX(0)) / 2
+    about = wanted @ free
+    angular = _turn_jacobian(tree, moving, axes)
+    held = angular - about @ (about.T @ angular)
+    miss = _miss(goal, wanted, half, tip)
     way = ca.sqrt(ca.sumsqr(miss))
-    chord = ca.sqrt(ca.sumsqr(turn - wanted) / 2)
+    twist, chord = _turn_error(turn, wanted, free)
+    to_pose = tip_attraction(ca.vertcat(linear, held), ca.vertcat(miss, twist), length)
     frame = {"axes": axes, "origins": origins, "tip_position": tip}
-    to_posture = joint_attraction(q, target, length)
-    to_point = tip_attraction(linear, miss, length)
-    to_pose = tip_attraction(full, ca.vertcat(miss, twist), length)
+    place = {"position": goal, "rotation": wanted, "half": half}
     return [
         _function(
             "k_drive_joint",
             {"q": q, "target": target, "length": length},
-            {"w": to_posture},
+            {"w": joint_attraction(q, target, length)},
         ),
         _function(
             "k_drive_position",
-            {**frame, "position": goal, "length": length},
-            {"w": to_point, "error": ca.vertcat(way, 0)},
+            {**frame, **place, "length": length},
+            {
+                "w": tip_attraction(linear, miss, length),
+                "error": ca.vertcat(way, 0),
+            },
         ),
         _function(
             "k_drive_pose",
-            {
-                **frame,
-                "tip_rotation": turn,
-                "position": goal,
-                "rotation": wanted,
-                "length": length,
-            },
+            {**frame, "tip_rotation": turn, **place, "free": free, "length": length},
             {"w": to_pose, "error": ca.vertcat(way, chord)},
         ),
     ]

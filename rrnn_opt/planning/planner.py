@@ -12,14 +12,16 @@ from numpy.typing import NDArray
 
 from rrnn_opt import check
 from rrnn_opt.errors import ProblemError, RetimeError
-from rrnn_opt.motion import Trajectory, deliver, shortcut
+from rrnn_opt.motion import Delivery, Trajectory, deliver
 from rrnn_opt.planning.feasibility import Infeasible, OpenGoals, blocked, open_goals
 from rrnn_opt.planning.problem import Problem
+from rrnn_opt.planning.refine import refine
 from rrnn_opt.planning.request import pack
 from rrnn_opt.planning.result import PlanResult, PlanStats
 from rrnn_opt.planning.runtime_cache import runtime_of
 from rrnn_opt.planning.runtime_library import Runtime, Search
 from rrnn_opt.planning.settings import PLANNERS, RandomRnn
+from rrnn_opt.planning.structs import SearchCounts
 
 Array = NDArray[np.float64]
 Progress = Callable[[str, int], None]
@@ -36,7 +38,8 @@ class _Run:
     planner: str
     settings: RandomRnn
     begin: float
-    search: Search | None = None
+    counts: SearchCounts | None = None
+    activity: tuple[float, ...] = ()
     path: Array | None = None
     trajectory: Trajectory | None = None
     certificate: dict[str, Any] | None = None
@@ -60,9 +63,9 @@ class _Run:
 
     def _stats(self) -> PlanStats:
         stats = PlanStats(time_s=time.perf_counter() - self.begin, **self.times)
-        if self.search is None:
+        if self.counts is None:
             return stats
-        counts = self.search.counts()
+        counts = self.counts
         return replace(
             stats,
             random=counts.random,
@@ -70,7 +73,7 @@ class _Run:
             nodes=counts.nodes,
             rollout_steps=counts.rollout_steps,
             goal_postures=counts.goal_postures,
-            memory_cell=tuple(float(x) for x in self.search.activity()),
+            memory_cell=self.activity,
         )
 
 
@@ -135,11 +138,12 @@ def _planned(
         return run.result("infeasible", goals.message, witness=goals.witness)
     packed = pack(run.problem, goals.joints, goals.tips, run.seed)
     with Search(runtime, run.settings, packed.struct, packed.keep) as search:
-        run.search = search
         try:
             status = _search(run, search, time_limit, budget, on_progress)
             if status == "solved":
-                return _delivered(run, search, on_progress)
+                if on_progress is not None:
+                    on_progress("deliver", len(search.path()))
+                return _delivered(run, search, runtime, goals)
         except KeyboardInterrupt:
             return run.result("interrupted", "interrupted; what was found is kept")
         return run.result(status, _why(status, run, goals))
@@ -166,6 +170,8 @@ def _search(
                 on_progress("plan", counts.random + counts.heuristic)
     finally:
         run.times["plan_time_s"] = time.perf_counter() - begin
+        run.counts = search.counts()
+        run.activity = tuple(float(x) for x in search.activity())
     return status
 
 
@@ -180,30 +186,23 @@ def _why(status: str, run: _Run, goals: OpenGoals) -> str:
     return f"no path found before the {what} were spent; this proves nothing"
 
 
-def _delivered(run: _Run, search: Search, on_progress: Progress | None) -> PlanResult:
-    """Shorten, retime and certify the path found; the path is kept anyway."""
-    raw = search.path()
-    run.path = raw
-    if on_progress is not None:
-        on_progress("deliver", len(raw))
+def _delivered(
+    run: _Run, search: Search, runtime: Runtime, goals: OpenGoals
+) -> PlanResult:
+    """Refine, retime and certify the path found; a path is kept in any case."""
+    run.path = search.path()
     begin = time.perf_counter()
-    problem, robot = run.problem.to_dict(), run.problem.robot.to_dict()
-    rng = np.random.default_rng([run.seed, 1])
-    checking = [0.0]
 
-    def certify(trajectory: Trajectory) -> Any:
-        start = time.perf_counter()
-        verdict = check.certify_trajectory(robot, problem, trajectory.to_dict())
-        checking[0] += time.perf_counter() - start
-        return verdict
+    def another(number: int) -> Search:
+        packed = pack(run.problem, goals.joints, goals.tips, run.seed, number)
+        return Search(runtime, run.settings, packed.struct, packed.keep)
 
+    run.path = refine(search, another, run.settings, run.seed)
+    run.times["refine_time_s"] = time.perf_counter() - begin
     try:
-        run.path = shortcut(raw, search.segment_free, rng=rng)
-        delivery = deliver(run.path, run.problem.robot.limits, certify)
+        delivery = _timed(run, run.path)
     except RetimeError as error:
         return run.result("uncertified", f"path found, but not timed: {error}")
-    finally:
-        run.times["retime_time_s"] = time.perf_counter() - begin - checking[0]
     run.trajectory = delivery.trajectory
     run.certificate = delivery.certificate.to_dict()
     proved = delivery.certificate.proved
@@ -213,3 +212,21 @@ def _delivered(run: _Run, search: Search, on_progress: Progress | None) -> PlanR
         if proved
         else "path found, but its trajectory could not be proved; the path is kept",
     )
+
+
+def _timed(run: _Run, path: Array) -> Delivery[check.TrajectoryCertificate]:
+    """Retime and certify; the certificate's own time is left out."""
+    problem, robot = run.problem.to_dict(), run.problem.robot.to_dict()
+    begin, checking = time.perf_counter(), 0.0
+
+    def certify(trajectory: Trajectory) -> check.TrajectoryCertificate:
+        nonlocal checking
+        start = time.perf_counter()
+        verdict = check.certify_trajectory(robot, problem, trajectory.to_dict())
+        checking += time.perf_counter() - start
+        return verdict
+
+    try:
+        return deliver(path, run.problem.robot.limits, certify)
+    finally:
+        run.times["retime_time_s"] = time.perf_counter() - begin - checking

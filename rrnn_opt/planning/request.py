@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.planning.goals import TipGoal
+from rrnn_opt.planning.goals import AXES, TipGoal
 from rrnn_opt.planning.problem import Problem
 from rrnn_opt.planning.structs import Request, TipTarget
 from rrnn_opt.scene.distance import PRIMITIVES
-from rrnn_opt.scene.pose import matrix_from_quaternion
 
 Array = NDArray[np.float64]
 
@@ -38,22 +37,30 @@ def tip_target(goal: TipGoal) -> TipTarget:
     """``tip_goal_t`` of a goal; an angle tolerance becomes its chord."""
     target = TipTarget(tolerance=goal.tolerance)
     target.position[:] = list(goal.position)
+    target.rotation[:] = list(goal.rotation.ravel(order="F"))
+    target.half[:] = list(goal.half_edges)
+    if goal.free_axis is not None:
+        target.free[AXES.index(goal.free_axis)] = 1.0
     if goal.quat_xyzw is not None:
-        rotation = matrix_from_quaternion(goal.quat_xyzw)
-        target.rotation[:] = list(rotation.ravel(order="F"))
         target.chord = 2.0 * np.sin(min(goal.angle_tolerance, np.pi) / 2.0)
         target.has_rotation = 1
     return target
 
 
-def _seed(seed: int) -> NDArray[np.uint64]:
-    """128 bits of the caller's seed."""
-    words = np.random.SeedSequence(seed).generate_state(2, np.uint64)
+def _seed(seed: int, number: int) -> NDArray[np.uint64]:
+    """128 bits of the caller's seed for its search ``number``."""
+    words = np.random.SeedSequence([seed, number] if number else seed).generate_state(
+        2, np.uint64
+    )
     return words.astype(np.uint64)
 
 
 def pack(
-    problem: Problem, joints: tuple[Array, ...], tips: tuple[TipGoal, ...], seed: int
+    problem: Problem,
+    joints: tuple[Array, ...],
+    tips: tuple[TipGoal, ...],
+    seed: int,
+    number: int = 0,
 ) -> PackedRequest:
     """The request of a search.
 
@@ -62,6 +69,7 @@ def pack(
         joints: joint goals, (nv,) each.
         tips: goals of the end effector.
         seed: of the runtime's generator.
+        number: of the search with this seed; each draws its own stream.
     """
     robot, obstacles = problem.robot, problem.scene.obstacles
     kinds = list(PRIMITIVES)
@@ -86,5 +94,5 @@ def pack(
         tip_goal_count=len(tips),
     )
     struct.tip_goals = ctypes.addressof(targets)
-    struct.seed[:] = [int(word) for word in _seed(seed)]
+    struct.seed[:] = [int(word) for word in _seed(seed, number)]
     return PackedRequest(struct, (arrays, kind, targets))

@@ -46,7 +46,8 @@ class PlanStats:
         memory_cell: activity before each exploration.
         time_s: whole call.
         plan_time_s: search with its step certificates.
-        retime_time_s: shortcut and retiming.
+        refine_time_s: shortening, further searches included.
+        retime_time_s: retiming.
         compile_time_s: emission and compilation (small when cached).
     """
 
@@ -58,6 +59,7 @@ class PlanStats:
     memory_cell: tuple[float, ...] = ()
     time_s: float = 0.0
     plan_time_s: float = 0.0
+    refine_time_s: float = 0.0
     retime_time_s: float = 0.0
     compile_time_s: float = 0.0
 
@@ -78,6 +80,7 @@ _PLAIN = (
     "goal_postures",
     "time_s",
     "plan_time_s",
+    "refine_time_s",
     "retime_time_s",
     "compile_time_s",
 )

@@ -99,13 +99,15 @@ class Search:
             raise RrnnError("planner: out of memory; lower the exploration budget")
         return STATUS[code]
 
-    def segment_free(self, start: Array, end: Array) -> bool:
-        """Proof by bisection that the straight segment is free."""
-        types = (ct.c_void_p, ct.c_void_p)
+    def segment_free(self, start: Array, end: Array, clearance: float = 0.0) -> bool:
+        """Proof by bisection that the straight segment is free.
+
+        ``clearance`` (m) is kept from obstacles beyond the promised margin.
+        """
+        types = (ct.c_void_p, ct.c_void_p, ct.c_double)
         a, b = (np.ascontiguousarray(q, dtype=np.float64) for q in (start, end))
-        return bool(
-            self._call("segment_free", ct.c_int32, types, a.ctypes.data, b.ctypes.data)
-        )
+        pointers = (a.ctypes.data, b.ctypes.data)
+        return bool(self._call("segment_free", ct.c_int32, types, *pointers, clearance))
 
     def postures_free(self, q: Array) -> NDArray[np.bool_]:
         """Which postures (N, nv) keep every promised clearance, (N,)."""
@@ -147,6 +149,23 @@ class Search:
         if count.value == 0:
             return np.zeros((0, self._nv))
         return np.ctypeslib.as_array(pointer, (count.value, self._nv)).copy()
+
+    def shorten(self, path: Array, attempts: int) -> Array:
+        """A proved path, shortened by random slides between its points.
+
+        Args:
+            path: waypoints, (N, nv), N >= 2, every segment proved.
+            attempts: slides to try.
+
+        Returns:
+            Waypoints, (M, nv), same ends, never longer.
+        """
+        path = np.ascontiguousarray(path, dtype=np.float64)
+        types = (ct.c_void_p, ct.c_int32, ct.c_int32)
+        arguments = (path.ctypes.data, len(path), attempts)
+        if not self._call("shorten", ct.c_int32, types, *arguments):
+            raise RrnnError("planner: out of memory while shortening the path")
+        return self.path()
 
     def counts(self) -> SearchCounts:
         """Rollouts, nodes and steps so far."""

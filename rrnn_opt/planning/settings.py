@@ -31,6 +31,12 @@ class RandomRnn:
         ik_steps: most steps of one inverse kinematics run.
         ik_share: share of the goal tolerance that it must reach.
         ik_tries: runs before the search starts.
+        project: project steps on contact rows; without, a slide stops at contact.
+        connect: after a random slide, slide from the other tree to its end.
+        drive: let every third heuristic slide follow the tip error from the start
+            tree; without, the network only finds goal postures.
+        refinements: searches after the first, for a shorter path.
+        shorten_slides: slides tried to shorten each path found.
     """
 
     cell: MemoryCell = field(default_factory=MemoryCell)
@@ -51,6 +57,11 @@ class RandomRnn:
     ik_steps: int = 60
     ik_share: float = 0.2
     ik_tries: int = 500
+    project: bool = True
+    connect: bool = True
+    drive: bool = True
+    refinements: int = 3
+    shorten_slides: int = 20
 
 
 PLANNERS = {"random-rnn": RandomRnn(), "no-learning": RandomRnn(coin=0.5)}

@@ -94,9 +94,9 @@ RRNN_EXPORT int32_t NAME(run)(planner_t *planner, int64_t budget, double slice)
 }
 
 RRNN_EXPORT int32_t NAME(segment_free)(planner_t *planner, const double *from,
-                                  const double *to)
+                                  const double *to, double clearance)
 {
-    return segment_free(planner, from, to);
+    return segment_free(planner, from, to, clearance);
 }
 
 /* Which of the postures keep every promised clearance? */
@@ -160,6 +160,22 @@ RRNN_EXPORT void NAME(near)(const planner_t *planner, int32_t index, int32_t *wh
     numbers[0] = pair->gap;
     memcpy(numbers + 1, pair->n, 3 * sizeof(double));
     numbers[4] = pair->bound;
+}
+
+/* Takes a proved path and shortens it by `attempts` slides. */
+RRNN_EXPORT int32_t NAME(shorten)(planner_t *planner, const double *path,
+                                  int32_t count, int32_t attempts)
+{
+    double *copy = malloc((size_t)count * NV * sizeof(double));
+    if (copy == NULL) {
+        return 0;
+    }
+    memcpy(copy, path, (size_t)count * NV * sizeof(double));
+    free(planner->path);
+    planner->path = copy;
+    planner->path_count = count;
+    shorten(planner, attempts);
+    return !planner->out_of_memory;
 }
 
 RRNN_EXPORT const double *NAME(path)(const planner_t *planner, int32_t *count)

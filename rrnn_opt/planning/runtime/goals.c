@@ -8,6 +8,22 @@ static void draw_posture(planner_t *planner, double *q)
     }
 }
 
+/* The goal with its region, if it has one, shrunk to a random point of it. */
+static tip_goal_t draw_point(planner_t *planner, const tip_goal_t *tip)
+{
+    tip_goal_t point = *tip;
+    for (int32_t k = 0; k < 3; k++) {
+        if (tip->half[k] > 0.0) {
+            const double shift = (2.0 * rng_uniform(&planner->rng) - 1.0) * tip->half[k];
+            for (int32_t i = 0; i < 3; i++) {
+                point.position[i] += shift * tip->rotation[3 * k + i];
+            }
+            point.half[k] = 0.0;
+        }
+    }
+    return point;
+}
+
 /* Follows the drive to a tip goal without obstacles; 1 when it arrives. */
 static int inverse_kinematics(const planner_t *planner, const tip_goal_t *tip,
                               double *q)
@@ -54,13 +70,14 @@ static int find_root(planner_t *planner, const double *seed)
         return 0;
     }
     const int32_t turn = planner->ik_failures + planner->roots;
-    const tip_goal_t *tip = planner->tips + turn % planner->tip_count;
+    tip_goal_t tip = planner->tips[turn % planner->tip_count];
     if (seed != NULL) {
         memcpy(q, seed, sizeof q);
     } else {
         draw_posture(planner, q);
+        tip = draw_point(planner, &tip);
     }
-    if (!inverse_kinematics(planner, tip, q) || !is_free(planner, q)) {
+    if (!inverse_kinematics(planner, &tip, q) || !is_free(planner, q)) {
         planner->ik_failures++;
         return 0;
     }

@@ -75,7 +75,7 @@ static int random_turn(planner_t *planner)
                      planner->tree[1].count > 0;
     const int32_t from = nearest(&planner->tree[side], target.q);
     explore(planner, side, from, &target, 1, &last);
-    if (last < 0 || planner->tree[1 - side].count == 0) {
+    if (!planner->set.connect || last < 0 || planner->tree[1 - side].count == 0) {
         return 0;
     }
     const double *reached = planner->tree[side].nodes[last].q;
@@ -109,7 +109,8 @@ static int heuristic_turn(planner_t *planner)
 {
     pair_t pair;
     const int32_t turn = planner->turns++;
-    if (planner->tip_count > 0 && (turn % 3 == 2 || planner->tree[1].count == 0)) {
+    const int wanted = planner->set.drive && turn % 3 == 2;
+    if (planner->tip_count > 0 && (wanted || planner->tree[1].count == 0)) {
         return tip_turn(planner);
     }
     if (!heap_pop(planner, &pair)) {

@@ -36,7 +36,7 @@ static int piece_verdict(planner_t *planner, const double *middle, const double 
 
 /* Every piece in turn, coarse to fine; a segment that is not decided at the
  * last depth counts as not free. */
-static int segment_free(planner_t *planner, const double *from, const double *to)
+static int pieces_free(planner_t *planner, const double *from, const double *to)
 {
     double starts[SEGMENT_DEPTH + 2], ends[SEGMENT_DEPTH + 2];
     int32_t depths[SEGMENT_DEPTH + 2];
@@ -68,4 +68,15 @@ static int segment_free(planner_t *planner, const double *from, const double *to
         }
     }
     return 1;
+}
+
+/* Is the segment free, with `clearance` beyond the margin to obstacles? */
+static int segment_free(planner_t *planner, const double *from, const double *to,
+                        double clearance)
+{
+    const double margin = planner->world.margin;
+    planner->world.margin = margin + clearance;
+    const int verdict = pieces_free(planner, from, to);
+    planner->world.margin = margin;
+    return verdict;
 }

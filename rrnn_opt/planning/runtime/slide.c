@@ -32,11 +32,12 @@ static double drive(const planner_t *planner, const double *q, const pose_t *pos
     double error[2];
     if (tip->has_rotation) {
         k_drive_pose(pose->axes, pose->origins, pose->tip_position,
-                     pose->tip_rotation, tip->position, tip->rotation, &length, w,
-                     error);
+                     pose->tip_rotation, tip->position, tip->rotation, tip->half,
+                     tip->free, &length, w, error);
     } else {
         k_drive_position(pose->axes, pose->origins, pose->tip_position,
-                         tip->position, &length, w, error);
+                         tip->position, tip->rotation, tip->half, &length, w,
+                         error);
     }
     *arrived = error[0] <= share * tip->tolerance &&
                (!tip->has_rotation || error[1] <= share * tip->chord);
@@ -113,7 +114,8 @@ static int32_t project(planner_t *planner, const double *q, const pose_t *pose,
     double lower[NV], upper[NV];
     candidate_t list[NEAR_MAX];
     int32_t count = 0;
-    const int32_t size = candidates(planner, pose, w, list);
+    const int32_t size =
+        planner->set.project ? candidates(planner, pose, w, list) : 0;
     k_box(q, planner->lower, planner->upper, &radius, lower, upper);
     memcpy(u, w, NV * sizeof(double));
     hildreth(NV, 0, rows, h, lower, upper, 1, lambda, z, u);

@@ -32,11 +32,16 @@ typedef struct {
     int32_t max_roots;
     int32_t ik_steps;
     int32_t ik_tries;     /* postures tried before the search starts */
+    int32_t project;      /* 0: no contact rows, a slide stops at contact */
+    int32_t connect;      /* 0: no connecting slide after a random one */
+    int32_t drive;        /* 0: no slide straight to a tip goal */
 } settings_t;
 
 typedef struct {
     double position[3];   /* m */
     double rotation[9];   /* column by column */
+    double half[3];       /* m, half edges of the region, in goal axes */
+    double free[3];       /* one for the goal axis that is free, else zeros */
     double tolerance;     /* m */
     double chord;         /* 2 sin(angle tolerance / 2) */
     int32_t has_rotation;

@@ -1,0 +1,68 @@
+"""Refinement: shorter, same ends, still proved, and decided by the seed."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from rrnn_opt.planning import Problem, RandomRnn
+from rrnn_opt.planning.refine import length, refine
+from rrnn_opt.scene.library import scenario
+
+
+def solved(search):
+    status = "paused"
+    while status == "paused":
+        status = search.run(20_000, 10.0)
+    assert status == "solved"
+    return search.path()
+
+
+def test_slides_shorten_and_keep_ends_and_proofs(
+    pa10_runtime, window_problem, open_search
+):
+    start = scenario("window").problem(42)["start"]  # a hard one
+    problem, gains = Problem.from_dict(window_problem(start=start)), []
+    for seed in range(6):
+        with open_search(pa10_runtime, problem, seed=seed) as search:
+            raw = solved(search)
+            short = search.shorten(raw, 40)
+            np.testing.assert_array_equal(short[[0, -1]], raw[[0, -1]])
+            assert length(short) <= length(raw) + 1e-9
+            pieces = itertools.pairwise(short)
+            assert all(search.segment_free(a, b) for a, b in pieces)
+            gains.append(length(short) / length(raw))
+    assert np.mean(gains) < 0.9
+
+
+@pytest.mark.parametrize("count", [0, 3])
+def test_refine_takes_the_shortest(pa10_runtime, window_problem, open_search, count):
+    problem, settings = (
+        Problem.from_dict(window_problem()),
+        RandomRnn(refinements=count),
+    )
+
+    def another(number):
+        return open_search(pa10_runtime, problem, seed=100 + number)
+
+    def refined():
+        with open_search(pa10_runtime, problem, seed=1) as search:
+            raw = solved(search)
+            path = refine(search, another, settings, 1)
+            pieces = itertools.pairwise(path)
+            assert all(search.segment_free(a, b) for a, b in pieces)
+            return raw, path
+
+    (raw, path), (_, again) = refined(), refined()
+    np.testing.assert_array_equal(path, again)
+    np.testing.assert_array_equal(path[0], problem.start)
+    assert length(path) <= length(raw)
+
+
+def test_a_segment_with_clearance_is_harder(pa10_runtime, window_problem, open_search):
+    problem = Problem.from_dict(window_problem())
+    with open_search(pa10_runtime, problem) as search:
+        gap = search.closest(problem.start, radius=0.5).gap
+        same = problem.start + 1e-6
+        assert search.segment_free(problem.start, same, clearance=0.9 * gap)
+        assert not search.segment_free(problem.start, same, clearance=1.1 * gap)
