@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import ABC
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -96,6 +96,10 @@ class Dynamics(ABC):
     def _symbols(self) -> tuple[Symbol, ...]:
         return (self.state, *self.parameters)
 
+    @abstractmethod
+    def step(self, method: Euler) -> DiscreteDynamics:
+        """One step as a map; a symbolic step size is its last parameter."""
+
     def duals(self) -> dict[str, ca.SX]:
         """Multipliers of the rows as declared, as SX of state and parameters.
 
@@ -176,14 +180,7 @@ class NeuralDynamics(Dynamics):
         return {"derivative": self._function("derivative", law)} | self._common()
 
     def step(self, method: Euler) -> DiscreteDynamics:
-        """One step of an integrator, as a map.
-
-        Args:
-            method: the integrator with its step size.
-
-        Returns:
-            The map; the step size is its last parameter when it is a symbol.
-        """
+        """One step of an integrator, as a map."""
         extra = (method.h,) if isinstance(method.h, Symbol) else ()
         h = method.h.sx if isinstance(method.h, Symbol) else method.h
         return DiscreteDynamics(

@@ -47,7 +47,7 @@ class FiniteTimeZnn(Network):
 
     gamma: float = 100.0
     power: float = 0.5
-    band: float = 1e-9
+    band: float = 1e-10
     damping: float = 1e-9
 
     def __post_init__(self) -> None:

@@ -9,13 +9,13 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.dynamics import NeuralDynamics
+from rrnn_opt.dynamics import Dynamics, NeuralDynamics
 
 Array = NDArray[np.float64]
 
 
 def settling_step(
-    dynamics: NeuralDynamics, state: Array, parameters: Sequence[Array]
+    dynamics: Dynamics, state: Array, parameters: Sequence[Array]
 ) -> float:
     """An Euler step that is half of the longest stable one, at a given state.
 
@@ -25,7 +25,8 @@ def settling_step(
     P = I the free modes solve eps^2 s^2 + eps s + sigma^2 = 0, sigma the
     singular values of J, which gives h = eps / (2 sigma^2) for sigma >= 1/2; a
     projected coordinate has s = -1/eps and gives h = eps.  With other active
-    bounds the modes differ: it is a choice, not a proof of stability.
+    bounds the modes differ: it is a choice, not a proof of stability; see
+    ``euler_bound`` of the networks for what holds whatever is active.
 
     Args:
         dynamics: the network.
@@ -33,9 +34,19 @@ def settling_step(
         parameters: one array a parameter, in order, of its shape.
 
     Returns:
-        h, s; 1 for a network that does not move.
+        h, s, at most the network's ``longest_step``; 1 for a network that does
+        not move, and for a map.
     """
+    if not isinstance(dynamics, NeuralDynamics):
+        return 1.0
     slope = np.asarray(_slope(dynamics)(state, *parameters), dtype=np.float64)
+    return min(_half(slope), dynamics.longest_step)
+
+
+def _half(slope: Array) -> float:
+    """Half of the longest step that is stable for the modes of a slope."""
+    if not np.isfinite(slope).all():
+        return 1.0
     modes = np.linalg.eigvals(slope)
     size = np.abs(modes)
     fastest = float(size.max(initial=0.0))

@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 from rrnn_opt import emit
-from rrnn_opt.dynamics import Euler, NeuralDynamics
+from rrnn_opt.dynamics import DiscreteDynamics, Dynamics, Euler
 from rrnn_opt.errors import CompilerError
 from rrnn_opt.solving.residual import Array
 from rrnn_opt.symbolic.symbol import Symbol
@@ -53,7 +53,7 @@ class Run:
 
 @dataclass(frozen=True, eq=False)
 class RestableNetwork:
-    """The Euler loop of one network, its output and its multipliers.
+    """The Euler loop of one network (a map's own), its output and its multipliers.
 
     Attributes:
         dynamics: the network.
@@ -61,12 +61,12 @@ class RestableNetwork:
             about a hundred times slower.
     """
 
-    dynamics: NeuralDynamics
+    dynamics: Dynamics
     compiled: emit.Built | None
     _loop: Loop
 
     @staticmethod
-    def of(dynamics: NeuralDynamics) -> RestableNetwork:
+    def of(dynamics: Dynamics) -> RestableNetwork:
         """Compile the loop; without a compiler take the interpreter."""
         try:
             built = emit.build(loop_source(dynamics), name="settle")
@@ -119,6 +119,16 @@ class RestableNetwork:
             state -= np.linalg.lstsq(np.asarray(slope), residual, rcond=1e-12)[0]
         return Run(state, done, largest)
 
+    @property
+    def steppable(self) -> bool:
+        """Whether another step size makes another run; not so for a map."""
+        return not isinstance(self.dynamics, DiscreteDynamics)
+
+    def start(self, parameters: Sequence[Array]) -> Array:
+        """Where a run begins, (n,)."""
+        begin = self._start.call([*parameters])[0]
+        return np.asarray(begin, dtype=np.float64).ravel()
+
     def read(self, state: Array, parameters: Sequence[Array]) -> dict[str, Array]:
         """Output ("output") and multipliers by name at a state."""
         values = self._readout.call([state, *parameters])
@@ -133,6 +143,10 @@ class RestableNetwork:
         return ca.Function("linearised", _inputs(dyn), [dyn.residual, slope])
 
     @cached_property
+    def _start(self) -> ca.Function:
+        return ca.Function("start", _inputs(self.dynamics)[1:], [self.dynamics.start])
+
+    @cached_property
     def _readout(self) -> ca.Function:
         dyn = self.dynamics
         parts = [dyn.output, *dyn.multipliers.values()]
@@ -140,12 +154,12 @@ class RestableNetwork:
 
 
 @lru_cache(maxsize=32)
-def restable(dynamics: NeuralDynamics) -> RestableNetwork:
+def restable(dynamics: Dynamics) -> RestableNetwork:
     """``RestableNetwork.of``, remembered for the networks last used."""
     return RestableNetwork.of(dynamics)
 
 
-def loop_source(dynamics: NeuralDynamics) -> str:
+def loop_source(dynamics: Dynamics) -> str:
     """The C text: the emitted Euler step and the hand-written loop."""
     offsets = np.cumsum([0, *[p.size for p in dynamics.parameters]])
     packed = [f"parameters + {k}" for k in offsets[:-1]]
@@ -159,7 +173,7 @@ def loop_source(dynamics: NeuralDynamics) -> str:
     return "\n".join([emit.prologue(), step, glue, loop.read_text("utf-8")])
 
 
-def _euler(dynamics: NeuralDynamics) -> ca.Function:
+def _euler(dynamics: Dynamics) -> ca.Function:
     """State, parameters, h -> next state, largest component of the residual."""
     h = Symbol.vector("euler_h", 1, "s", "Euler step")
     step = dynamics.step(Euler(h))
@@ -205,7 +219,7 @@ def _loaded(built: emit.Built) -> Loop:
     return loop
 
 
-def _interpreted(dynamics: NeuralDynamics) -> Loop:
+def _interpreted(dynamics: Dynamics) -> Loop:
     """The same loop through CasADi's interpreter."""
     euler = _euler(dynamics)
 
@@ -229,5 +243,5 @@ def _interpreted(dynamics: NeuralDynamics) -> Loop:
     return loop
 
 
-def _inputs(dynamics: NeuralDynamics) -> list[ca.SX]:
+def _inputs(dynamics: Dynamics) -> list[ca.SX]:
     return [dynamics.state.sx, *(p.sx for p in dynamics.parameters)]

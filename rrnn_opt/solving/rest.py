@@ -81,6 +81,8 @@ class Job:
         for _ in range(_ATTEMPTS - 1):
             if best.status.has_point or best.status is Status.PRIMAL_INFEASIBLE:
                 break
+            if not self.network.steppable:
+                break
             h *= _SHRINK
             attempt = self.rest(first, h)
             if attempt.residual.worst <= best.residual.worst:

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rrnn_opt.dynamics import NeuralDynamics
+from rrnn_opt.dynamics import Dynamics
 from rrnn_opt.errors import InfeasibleQpError, RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks.step_size import settling_step
-from rrnn_opt.solving.network import restable
+from rrnn_opt.solving.network import RestableNetwork, restable
 from rrnn_opt.solving.residual import NOT_JUDGED, Array, Dense, Residual
 from rrnn_opt.solving.rest import Attempt, Job
 from rrnn_opt.solving.status import Status
@@ -29,7 +29,7 @@ class SettleInfo:
 
     Attributes:
         status: our judgement; a point is returned only with ``has_point``.
-        steps: Euler steps in all.
+        steps: Euler steps, or iterations of a map, in all.
         newton: Newton steps that finished it; 0 when the network alone did.
         step: the last Euler step used, s.
         residual: KKT residuals of the programme at the equilibrium, computed
@@ -58,7 +58,7 @@ class SettleInfo:
 
 
 def settle(
-    dyn: NeuralDynamics,
+    dyn: Dynamics,
     *,
     tolerance: float = 1e-8,
     max_steps: int = MAX_STEPS,
@@ -70,25 +70,28 @@ def settle(
     """Run a network to its equilibrium and judge it as the QP's optimum.
 
     The Euler loop runs in compiled C (through CasADi's interpreter where there
-    is no compiler).  It stops on the network's own residual; then the KKT
-    residual of the programme is computed, and the network runs on until that
-    is within the tolerance too.
+    is no compiler); a discrete network's loop is its own.  It stops on the
+    network's own residual; then the KKT residual of the programme is computed,
+    and the network runs on until that is within the tolerance too.  A network
+    that is told the rates of its data (a ZNN) runs with data that stand still.
 
     Args:
-        dyn: a network made from a formulation.
+        dyn: a network made from a formulation.  Whitened rows
+            (``PrimalDual(whiten=True)``) settle in far fewer steps; a rule that
+            carries a paper's name has them only when asked to.
         tolerance: on the absolute KKT residual, largest component.
         max_steps: Euler steps in all for one choice of the step.
         step: Euler step h, s; None takes half of what is stable, from the
             modes of the network at its start (see ``settling_step``), and less
-            if that diverges.
-        start: (n,) state to start from; by default u is the point of the box
-            nearest to zero and all multipliers are zero.
+            if that diverges.  A map has no step.
+        start: (n,) state to start from; by default the network's own
+            beginning: multipliers zero, u the point of the box nearest to zero.
         newton: whether Newton steps on the network's own residual may finish
             what is slow: close to singular postures, and where active bounds
             leave few joints free, the network needs some
             1 / (h sigma_min^2 / eps) steps a digit.  The equilibrium is the
             same; ``info.newton`` tells.
-        **params: one array a parameter of the network.
+        **params: one array a parameter of the formulation.
 
     Returns:
         The minimiser, (n,), or None where ``info.status`` has no point; and
@@ -110,7 +113,7 @@ def settle(
 
 
 def settle_at(
-    dyn: NeuralDynamics,
+    dyn: Dynamics,
     parameters: Mapping[str, ArrayLike],
     *,
     tolerance: float = 1e-8,
@@ -123,7 +126,7 @@ def settle_at(
 
     Args:
         dyn: a network made from a formulation.
-        parameters: one array a parameter of the network.
+        parameters: one array a parameter of the formulation.
         tolerance: on the absolute KKT residual.
         max_steps: Euler steps in all for one choice of the step.
         step: Euler step h, s, or None.
@@ -136,7 +139,7 @@ def settle_at(
     Raises:
         RrnnError: as ``settle``.
     """
-    form = _formulation(dyn)
+    form, dyn = _formulation(dyn), dyn.frozen
     values = arguments(dyn.parameters, parameters, "settle")
     try:
         problem = Dense.of(form.qp.at(**parameters))
@@ -144,29 +147,28 @@ def settle_at(
         return None, _refused(dyn, str(error))
     network = restable(dyn)
     begin = time.perf_counter()
-    first = _start(dyn, problem, start)
+    first = _start(network, values, start)
     h = settling_step(dyn, first, values) if step is None else step
     job = Job(network, problem, values, tolerance, max_steps, newton)
     best = job.insist(first, h)
     if start is not None and best.status is Status.MAX_ITER:
-        best = job.insist(_start(dyn, problem, None), h)
+        best = job.insist(network.start(values), h)
     return best.x, _info(best, time.perf_counter() - begin)
 
 
-def _formulation(dyn: NeuralDynamics) -> Formulation:
+def _formulation(dyn: Dynamics) -> Formulation:
     if dyn.formulation is None:
         raise RrnnError(f"{dyn.name}: only a network made from a formulation settles")
     return dyn.formulation
 
 
-def _start(dyn: NeuralDynamics, problem: Dense, start: ArrayLike | None) -> Array:
-    """The given state, or zero multipliers and the u in Omega nearest to zero."""
-    if start is not None:
-        return np.array(start, dtype=np.float64).reshape(dyn.state.size)
-    state = np.zeros(dyn.state.size)
-    n = problem.q.size
-    state[:n] = np.clip(0.0, problem.lb, problem.ub)
-    return state
+def _start(
+    network: RestableNetwork, values: Sequence[Array], start: ArrayLike | None
+) -> Array:
+    """The given state, or where the network begins by itself."""
+    if start is None:
+        return network.start(values)
+    return np.array(start, dtype=np.float64).reshape(network.dynamics.state.size)
 
 
 def _info(attempt: Attempt, time_s: float) -> SettleInfo:
@@ -186,7 +188,7 @@ def _info(attempt: Attempt, time_s: float) -> SettleInfo:
     )
 
 
-def _refused(dyn: NeuralDynamics, message: str) -> SettleInfo:
+def _refused(dyn: Dynamics, message: str) -> SettleInfo:
     """An empty bound: nothing was run."""
     nowhere = np.full(dyn.state.size, np.nan)
     return SettleInfo(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from rrnn_opt.dynamics import NeuralDynamics
+from rrnn_opt.dynamics import Dynamics
 from rrnn_opt.solving.network import restable
 from rrnn_opt.solving.protocol import Instance, Solution
 from rrnn_opt.solving.residual import Array, Duals
@@ -22,7 +22,7 @@ class SettledNetwork:
         name: in tables.
     """
 
-    dynamics: NeuralDynamics
+    dynamics: Dynamics
     mode: str = "warm"
     tolerance: float = 1e-10
     name: str = "network"
@@ -31,7 +31,7 @@ class SettledNetwork:
 
     def setup(self, instance: Instance) -> None:
         """Compile the network's loop (or find it compiled)."""
-        restable(self.dynamics)
+        restable(self.dynamics.frozen)
         self._instance, self._state = instance, None
 
     def update(self, instance: Instance) -> None:
