@@ -42,6 +42,9 @@ class Settings(ct.Structure):
                 "max_roots",
                 "ik_steps",
                 "ik_tries",
+                "project",
+                "connect",
+                "drive",
             )
         ),
     )
@@ -121,6 +124,9 @@ def settings_struct(settings: RandomRnn) -> Settings:
         ik_tries=settings.ik_tries,
     )
 
+        project=settings.project,
+        connect=settings.connect,
+        drive=settings.drive,
 
 @dataclass(frozen=True)
 class Contact:
