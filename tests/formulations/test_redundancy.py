@@ -1,0 +1,314 @@
+"""What is done with self-motion, and when the task cannot be done."""
+
+from dataclasses import replace
+
+import casadi as ca
+import numpy as np
+import pytest
+import scipy.optimize
+
+import rrnn_opt as rr
+from rrnn_opt.errors import RrnnError, ShapeError
+from rrnn_opt.formulations import (
+    damped_least_squares,
+    infinity_norm,
+    joint_limit_avoidance,
+    manipulability,
+    minimum_acceleration,
+    minimum_velocity,
+    prioritised_tasks,
+    repetitive_motion,
+    slack_task,
+)
+from tests.formulations.points import (
+    bounds10,
+    data,
+    jacobian,
+    parameters,
+    roomy,
+    solve,
+    tip,
+)
+
+
+def projected(J, rate, wish):
+    """J# rate + (I - J# J) wish."""
+    pinv = np.linalg.pinv(J)
+    return pinv @ rate + wish - pinv @ (J @ wish)
+
+
+def expect_wish(form, kin, given, wish, *, atol=1e-8):
+    """The linear term is the wish, the optimum its projection; else as (3)."""
+    plain = data(minimum_velocity(kin), {k: given[k] for k in ("q", "rd_dot")})
+    ours = data(form, given)
+    np.testing.assert_allclose(ours.pop("q"), -wish, rtol=1e-6, atol=atol)
+    for name in ours:
+        np.testing.assert_array_equal(ours[name], plain[name])
+    u = projected(jacobian(kin, given["q"]), given["rd_dot"], wish)
+    if np.all((ours["lb"] < u) & (u < ours["ub"])):
+        np.testing.assert_allclose(solve(form, given), u, atol=1e-7)
+
+
+def test_repetitive_motion_wishes_itself_back(every):
+    form = repetitive_motion(every, gain=0.3)
+    given = roomy(form, every, 1)
+    expect_wish(form, every, given, -0.3 * (given["q"] - given["q_start"]))
+
+
+def drift(kin, form, *, laps=3, steps=150):
+    """How far the joints are from their start after circles of the tip."""
+    start = np.array([0.0, 0.5, 0.0, 1.0, 0.0, 0.8, 0.0])
+    q, h, home = start, 8.0 / steps, tip(kin, start)
+    for k in range(laps * steps):
+        a, b = 2 * np.pi * k / steps, 2 * np.pi * (k + 1) / steps
+        rd = home + 0.1 * np.array([0.0, np.cos(b) - 1.0, np.sin(b)])
+        on = home + 0.1 * np.array([0.0, np.cos(a) - 1.0, np.sin(a)])
+        rate = (rd - on) / h + 5.0 * (on - tip(kin, q))
+        given = {"q": q, "rd_dot": rate, "q_start": start}
+        q = q + h * solve(form, {p.name: given[p.name] for p in form.parameters})
+    return np.linalg.norm(q - start)
+
+
+def test_closed_curves_bring_the_joints_back(pa10):
+    free = drift(pa10, minimum_velocity(pa10))
+    led = drift(pa10, repetitive_motion(pa10))
+    assert led < free / 50
+
+
+def test_joint_limit_avoidance_descends_its_potential(every):
+    form = joint_limit_avoidance(every, gain=0.2)
+    given, limits = roomy(form, every, 2), every.robot.limits
+    middle, half = (limits.upper + limits.lower) / 2, (limits.upper - limits.lower) / 2
+
+    def potential(q):
+        return np.sum(((q - middle) / half) ** 2) / 2
+
+    slope = scipy.optimize.approx_fprime(given["q"], potential, 1e-7)
+    expect_wish(form, every, given, -0.2 * slope, atol=1e-5)
+
+
+def test_a_joint_without_limits_has_no_wish():
+    robot = rr.Robot.builtin("planar3")
+    endless = replace(robot.limits, lower=np.array([-np.inf, -2.9, -2.9]))
+    kin = rr.Kinematics(replace(robot, limits=endless))
+    given = {"q": np.array([0.5, 0.5, 0.5]), "rd_dot": np.zeros(3)}
+    pull = joint_limit_avoidance(kin).qp.at(**given).q
+    assert pull[0] == 0.0
+    assert pull[1] > 0.0
+
+
+def test_manipulability_is_climbed(every):
+    floor = 1e-3
+    form = manipulability(every, gain=0.2, floor=floor)
+    given = roomy(form, every, 3)
+    rows = slice(0, 2 if every.robot.name == "planar3" else 3)
+
+    def measure(q):
+        J = jacobian(every, q)[rows]
+        return np.sqrt(np.linalg.det(J @ J.T) + floor**2)
+
+    slope = scipy.optimize.approx_fprime(given["q"], measure, 1e-7)
+    expect_wish(form, every, given, 0.2 * slope, atol=1e-6)
+
+
+# the largest speed
+
+
+def least_largest(kin, given, sizes):
+    """min max |u_j| / size_j as a linear programme, by HiGHS."""
+    nv, J = kin.robot.nv, jacobian(kin, given["q"])
+    low, high = bounds10(kin, given["q"])
+    shares = np.hstack([np.diag(1 / sizes), -np.ones((nv, 1))])
+    mirror = np.hstack([-np.diag(1 / sizes), -np.ones((nv, 1))])
+    found = scipy.optimize.linprog(
+        np.append(np.zeros(nv), 1.0),
+        A_ub=np.vstack([shares, mirror]),
+        b_ub=np.zeros(2 * nv),
+        A_eq=np.hstack([J, np.zeros((3, 1))]),
+        b_eq=given["rd_dot"],
+        bounds=[*zip(low, high, strict=True), (None, None)],
+    )
+    assert found.success
+    return found.fun
+
+
+@pytest.mark.parametrize("scaled", [False, True])
+def test_infinity_norm_against_a_linear_programme(every, scaled):
+    sizes = every.robot.limits.velocity if scaled else np.ones(every.robot.nv)
+    ridge = 1e-4
+    form = infinity_norm(every, ridge=ridge, scale=sizes if scaled else None)
+    for seed in range(3):
+        given = parameters(form, every, seed)
+        x = solve(form, given)
+        u, t = x[:-1], x[-1]
+        best = least_largest(every, given, sizes)
+        assert np.max(np.abs(u) / sizes) == pytest.approx(t, abs=1e-9)
+        assert best - 1e-9 <= t <= best * (1 + ridge * np.sum(sizes**2) / 2) + 1e-9
+        J = jacobian(every, given["q"])
+        np.testing.assert_allclose(J @ u, given["rd_dot"], atol=1e-9)
+
+
+def test_infinity_norm_is_not_the_second_norm(pa10):
+    form = infinity_norm(pa10)
+    given = roomy(form, pa10, 4)
+    x, u = solve(form, given), solve(minimum_velocity(pa10), given)
+    assert x[-1] < 0.99 * np.abs(u).max()
+    assert np.linalg.norm(x[:-1]) > np.linalg.norm(u)
+
+
+@pytest.mark.parametrize(
+    ("scale", "error"), [(np.ones(6), ShapeError), (np.zeros(7), RrnnError)]
+)
+def test_scales_are_checked(pa10, scale, error):
+    with pytest.raises(error, match="scale"):
+        infinity_norm(pa10, scale=scale)
+
+
+# tasks that cannot be done
+
+
+def damped(J, rate, square):
+    """J'(J J' + square I)^-1 rate."""
+    return J.T @ np.linalg.solve(J @ J.T + np.diag(square), rate)
+
+
+def test_slack_is_damping_while_there_is_room(every):
+    form = slack_task(every, delta=0.03)
+    given = roomy(form, every, 5)
+    J = jacobian(every, given["q"])
+    u = damped(J, given["rd_dot"], np.full(3, 0.03**2))
+    x = solve(form, given)
+    np.testing.assert_allclose(x[: every.robot.nv], u, atol=1e-8)
+    missed = given["rd_dot"] - J @ u
+    np.testing.assert_allclose(0.03 * x[every.robot.nv :], missed, atol=1e-8)
+
+
+def test_slack_of_a_pose_has_two_scales(pa10):
+    form = slack_task(pa10, task="pose", delta=0.03, delta_angular=0.2)
+    given = roomy(form, pa10, 6)
+    J = jacobian(pa10, given["q"], "pose")
+    square = np.array([0.03**2] * 3 + [0.04] * 3)
+    x = solve(form, given)
+    np.testing.assert_allclose(x[:7], damped(J, given["rd_dot"], square), atol=1e-8)
+
+
+def test_slack_gives_way_where_the_hard_task_has_no_solution(every):
+    hard, soft = minimum_velocity(every), slack_task(every)
+    given = parameters(hard, every, 7)
+    given["rd_dot"] = 100 * jacobian(every, given["q"]) @ np.ones(every.robot.nv)
+    with pytest.raises(AssertionError):
+        solve(hard, given)
+    p, x = soft.qp.at(**given), solve(soft, given)
+    assert np.all((p.lb - 1e-9 <= x) & (x <= p.ub + 1e-9))
+    assert x[: every.robot.nv] @ jacobian(every, given["q"]).T @ given["rd_dot"] > 0
+
+
+def near_singular(kin, seed, bend):
+    """Arm nearly stretched: every angle small."""
+    rng = np.random.default_rng(seed)
+    q = bend * rng.uniform(0.5, 1.0, kin.robot.nv)
+    return {"q": q, "rd_dot": np.array([0.02, -0.01, 0.0])}
+
+
+@pytest.mark.parametrize("name", ["planar3", "pa10"])
+@pytest.mark.parametrize("bend", [0.0, 1e-3, 0.02])
+def test_damping_near_a_singular_posture(arms, name, bend):
+    kin = arms[name]
+    form = damped_least_squares(kin, damping=0.1, threshold=0.05)
+    given = near_singular(kin, 8, bend)
+    J = jacobian(kin, given["q"])
+    rows = J[:2] if name == "planar3" else J
+    w = np.sqrt(max(np.linalg.det(rows @ rows.T), 0.0))
+    delta = 0.1 * max(1 - w / 0.05, 0)
+    assert delta > 0
+    u = solve(form, given)[: kin.robot.nv]
+    want = damped(J, given["rd_dot"], np.full(3, delta**2))
+    np.testing.assert_allclose(u, want, atol=1e-7)
+    assert np.linalg.norm(u) <= np.linalg.norm(given["rd_dot"]) / (2 * delta) + 1e-9
+
+
+def test_no_damping_far_from_singular_postures(pa10):
+    form = damped_least_squares(pa10, threshold=0.02)
+    given = roomy(form, pa10, 9, q=np.array([0.1, 0.5, 0.2, 1.2, 0.3, 0.9, 0.0]))
+    given["rd_dot"] = np.array([0.02, 0.01, -0.03])
+    J = jacobian(pa10, given["q"])
+    assert np.sqrt(np.linalg.det(J @ J.T)) > 0.02
+    x = solve(form, given)
+    np.testing.assert_allclose(x[:7], np.linalg.pinv(J) @ given["rd_dot"], atol=1e-9)
+    assert form.qp.at(**given).lb is None
+
+
+# priorities
+
+
+@pytest.mark.parametrize("name", ["planar3", "pa10", "panda", "raven2"])
+def test_two_levels_against_the_null_space_formula(arms, name):
+    kin, ridge = arms[name], 1e-3
+    form, nv = prioritised_tasks(kin, ridge=ridge), kin.robot.nv
+    given = roomy(form, kin, 10)
+    given["rd_dot"][3:] += [0.01, -0.02, 0.015]  # not always possible
+    J = jacobian(kin, given["q"], "pose")
+    Jv, Jw, v, w = J[:3], J[3:], given["rd_dot"][:3], given["rd_dot"][3:]
+    first = np.linalg.pinv(Jv)
+    N = np.eye(nv) - first @ Jv
+    K = Jw @ N
+    inner = np.linalg.solve(K @ K.T + ridge * np.eye(3), w - Jw @ first @ v)
+    u = first @ v + K.T @ inner
+    x, p = solve(form, given), form.qp.at(**given)
+    assert np.all((p.lb[:nv] < u) & (u < p.ub[:nv]))
+    np.testing.assert_allclose(x[:nv], u, atol=1e-7)
+    np.testing.assert_allclose(x[nv:], w - Jw @ u, atol=1e-7)
+
+
+def test_as_the_ridge_vanishes_the_order_is_lexicographic(arms):
+    kin = arms["raven2"]  # six joints, of which the pose cannot have all it asks
+    J = None
+    misses = []
+    for ridge in (1e-2, 1e-4, 1e-6):
+        form = prioritised_tasks(kin, ridge=ridge)
+        given = roomy(form, kin, 11)
+        given["rd_dot"][3:] += [0.02, -0.02, 0.02]
+        J = jacobian(kin, given["q"], "pose")
+        u = solve(form, given)[:6]
+        np.testing.assert_allclose(J[:3] @ u, given["rd_dot"][:3], atol=1e-9)
+        misses.append(np.linalg.norm(given["rd_dot"][3:] - J[3:] @ u))
+    first = np.linalg.pinv(J[:3])
+    K = J[3:] @ (np.eye(6) - first @ J[:3])
+    rest = given["rd_dot"][3:] - J[3:] @ first @ given["rd_dot"][:3]
+    best = np.linalg.norm(rest - K @ np.linalg.pinv(K, rcond=1e-9) @ rest)
+    assert misses[0] >= misses[1] >= misses[2] >= best - 1e-9
+    assert misses[2] == pytest.approx(best, abs=1e-4)
+
+
+# accelerations
+
+
+def test_the_error_obeys_its_second_order_law(every):
+    kappa, h = 6.0, 1e-3
+    form = minimum_acceleration(every, kappa=kappa)
+    given = roomy(form, every, 12)
+    given["qd"] = 0.02 * every.robot.limits.velocity
+    J, q, qd = jacobian(every, given["q"]), given["q"], given["qd"]
+    given["rd"] = tip(every, q) + 0.0005 * J @ np.ones(every.robot.nv)
+    given["rd_dot"] = J @ qd * 0.9
+    f = ca.Function("f", [every.q], [every.position()])
+    u = solve(form, given)
+    path = [np.asarray(f(q + t * qd + t * t / 2 * u)).ravel() for t in (-h, 0, h)]
+    velocity = (path[2] - path[0]) / (2 * h)
+    second = (path[2] - 2 * path[1] + path[0]) / h**2
+    error, rate = given["rd"] - path[1], given["rd_dot"] - velocity
+    left = given["rd_ddot"] - second + 2 * kappa * rate + kappa**2 * error
+    np.testing.assert_allclose(left, 0.0, atol=1e-5)
+    assert np.linalg.norm(second) > 1e-3
+
+
+def test_of_all_accelerations_it_takes_the_smallest(pa10):
+    form = minimum_acceleration(pa10)
+    given = roomy(form, pa10, 13)
+    p, u = form.qp.at(**given), solve(form, given)
+    np.testing.assert_allclose(u, np.linalg.pinv(p.A) @ p.b, atol=1e-8)
+    limits, q, qd = pa10.robot.limits, given["q"], given["qd"]
+    w = limits.acceleration / limits.velocity
+    spring = w * w * (limits.upper - q) - 2 * w * qd
+    high = [spring, 20 * (limits.velocity - qd), limits.acceleration]
+    np.testing.assert_allclose(p.ub, np.minimum.reduce(high))
