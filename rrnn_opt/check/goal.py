@@ -87,7 +87,10 @@ def _region(entry: Mapping[str, Any], name: str) -> Array:
         return np.zeros(3)
     box = reading.mapping(region, f"{name}.region")
     edges = get(box, "box", f"{name}.region")
-    return reading.numbers(edges, (3,), f"{name}.region.box") / 2
+    half = reading.numbers(edges, (3,), f"{name}.region.box") / 2
+    if np.any(half < 0):
+        raise DocumentError(f"{name}.region.box", "must not be negative")
+    return half
 
 
 def _tolerance(entry: Mapping[str, Any], key: str, default: float, name: str) -> float:

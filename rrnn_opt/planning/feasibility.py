@@ -77,7 +77,7 @@ def blocked(problem: Problem, search: Search, q: Array, name: str) -> Infeasible
 def out_of_reach(problem: Problem, goal: TipGoal) -> Infeasible | None:
     """Proof that a tip goal lies beyond the sum of the link lengths."""
     centre, radius = reach_ball(problem.robot, problem.frame)
-    distance = float(np.linalg.norm(np.asarray(goal.position) - centre))
+    distance = goal.distance(centre)
     if distance <= radius + goal.tolerance:
         return None
     return Infeasible(

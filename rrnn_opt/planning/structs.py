@@ -56,6 +56,8 @@ class TipTarget(ct.Structure):
     _fields_ = (
         ("position", ct.c_double * 3),
         ("rotation", ct.c_double * 9),
+        ("half", ct.c_double * 3),
+        ("free", ct.c_double * 3),
         ("tolerance", ct.c_double),
         ("chord", ct.c_double),
         ("has_rotation", ct.c_int32),
@@ -122,11 +124,11 @@ def settings_struct(settings: RandomRnn) -> Settings:
         max_roots=settings.max_roots,
         ik_steps=settings.ik_steps,
         ik_tries=settings.ik_tries,
-    )
-
         project=settings.project,
         connect=settings.connect,
         drive=settings.drive,
+    )
+
 
 @dataclass(frozen=True)
 class Contact:

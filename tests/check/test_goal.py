@@ -64,6 +64,7 @@ def test_a_reached_goal_is_preferred_to_a_nearer_one(model):
         {"joints": [1.0]},
         {"position": [0, 0, 0], "tolerance": 0},
         {"position": [0, 0, 0], "region": {}},
+        {"position": [0, 0, 0], "region": {"box": [0.1, -0.1, 0.1]}},
         {"position": [0, 0, 0], "quat_xyzw": [0, 0, 0, 1], "free_axis": "w"},
     ],
 )
