@@ -25,6 +25,7 @@ _HOME = {
     "Problem": "rrnn_opt.planning",
     # verbs
     "plan": "rrnn_opt.planning",
+    "plan_many": "rrnn_opt.planning",
     "retime": "rrnn_opt.motion",
     "settle": "rrnn_opt.solving",
     "compare": "rrnn_opt.solving",

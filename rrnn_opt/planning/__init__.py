@@ -1,6 +1,7 @@
 """Planning: problems, the random-RNN planner and its compiled runtime."""
 
 from rrnn_opt.planning.goals import JointGoal, TipGoal
+from rrnn_opt.planning.many import plan_many
 from rrnn_opt.planning.planner import plan
 from rrnn_opt.planning.problem import Problem
 from rrnn_opt.planning.result import PlanResult, PlanStats
@@ -15,4 +16,5 @@ __all__ = [
     "RandomRnn",
     "TipGoal",
     "plan",
+    "plan_many",
 ]

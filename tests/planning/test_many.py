@@ -1,0 +1,32 @@
+"""Many plans: order, seeds and results do not depend on the workers."""
+
+import numpy as np
+import pytest
+
+from rrnn_opt.errors import ProblemError
+from rrnn_opt.planning import Problem, plan, plan_many
+
+
+def test_workers_change_nothing(window_problem):
+    problems = [Problem.from_dict(window_problem())] * 3
+    alone = list(plan_many(problems, seeds=[5, 6, 7], jobs=1))
+    together = list(plan_many(problems, seeds=[5, 6, 7], jobs=2))
+    for a, b, seed in zip(alone, together, (5, 6, 7), strict=True):
+        assert a.seed == b.seed == seed
+        assert a.status == b.status == "solved"
+        np.testing.assert_array_equal(a.path, b.path)
+        assert a.trajectory == b.trajectory
+    single = plan(problems[0], seed=6)
+    np.testing.assert_array_equal(single.path, alone[1].path)
+
+
+def test_seeds_and_jobs_must_fit(window_problem):
+    problems = [Problem.from_dict(window_problem())]
+    with pytest.raises(ProblemError, match="2 seeds for 1 problems"):
+        plan_many(problems, seeds=[1, 2])
+    with pytest.raises(ProblemError, match="at least 1"):
+        plan_many(problems, jobs=0)
+
+
+def test_nothing_to_plan():
+    assert list(plan_many([])) == []
