@@ -22,8 +22,8 @@ from rrnn_opt.symbolic import Symbol
 
 _CITATION = (
     "after Y. Zhang, J. Wang, IEEE Trans. Systems, Man, and Cybernetics B "
-    "34(1):752-759, 2004, doi:10.1109/TSMCB.2003.811519, which is Method 1 of "
-    "Li, Li, Hannaford, IEEE TII 15(4), 2019"
+    "34(1):752-759, 2004, which is Method 1 of Li, Li, Hannaford, IEEE TII 15(4), "
+    "2019"
 )
 _NOTES = (
     "A reconstruction: the distances and the shape of the variable magnitude are "

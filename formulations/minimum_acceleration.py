@@ -18,7 +18,7 @@ from rrnn_opt.robot import Kinematics
 
 _CITATION = (
     "acceleration level: A. De Luca, G. Oriolo, B. Siciliano, Laboratory Robotics "
-    "and Automation 4:97-106, 1992; feedback: J. Luh, M. Walker, R. Paul, IEEE "
+    "and Automation 4(2), 1992; feedback: J. Luh, M. Walker, R. Paul, IEEE "
     "Trans. Automatic Control 25(3):468-474, 1980"
 )
 _NOTES = (
