@@ -38,15 +38,21 @@ _LOOP = """\
 
 
 _PAIRS = """\
-/* Distances of the centres of sphere pairs first .. last - 1. */
-static void k_pair_gaps(int32_t first, int32_t last,
-                        const double *restrict centers, double *restrict out)
+/* Distances of the centres of group g's sphere pairs; inner loops vectorise. */
+static void k_pair_gaps(int32_t g, const double *restrict centers,
+                        double *restrict out)
 {
-    for (int32_t p = first; p < last; p++) {
-        const int32_t i = t_pair_i[p], j = t_pair_j[p];
+    for (int32_t k = t_group_block[g]; k < t_group_block[g + 1]; k++) {
+        const int32_t first = t_block_pair[k];
+        const int32_t count = t_block_pair[k + 1] - first;
+        const int32_t i = t_pair_i[first], j = t_pair_j[first];
         const double a[3] = {centers[i], centers[NS + i], centers[2 * NS + i]};
-        const double b[3] = {centers[j], centers[NS + j], centers[2 * NS + j]};
-        k_gap_pair(a, b, out + (p - first));
+        double *restrict to = out + (first - t_group_first[g]);
+        for (int32_t c = 0; c < count; c++) {
+            const double b[3] = {centers[j + c], centers[NS + j + c],
+                                 centers[2 * NS + j + c]};
+            k_gap_pair(a, b, to + c);
+        }
     }
 }
 """

@@ -72,6 +72,27 @@ def _pair_groups(
     return [pairs[k] for k in order], [groups[k] for k in order], masks
 
 
+def _radii(robot: Robot, i: int, j: int) -> float:
+    return robot.spheres[i].radius + robot.spheres[j].radius
+
+
+def _block_tables(
+    pairs: list[tuple[int, int]], groups: list[int], count: int
+) -> list[str]:
+    """Blocks of a group: one sphere against a run of consecutive ones."""
+    starts = [
+        p
+        for p, (i, j) in enumerate(pairs)
+        if p == 0 or groups[p] != groups[p - 1] or pairs[p - 1] != (i, j - 1)
+    ]
+    owners = [groups[p] for p in starts]
+    first = np.searchsorted(owners, range(count + 1))
+    return [
+        _c_table("int32_t", "t_block_pair", [*starts, len(pairs)]),
+        _c_table("int32_t", "t_group_block", first),
+    ]
+
+
 def tables(robot: Robot) -> str:
     """Sizes and tables that the planner's runtime reads, as C text."""
     reaches, mask = reach(robot), ancestor_mask(robot).astype(float)
@@ -97,13 +118,15 @@ def tables(robot: Robot) -> str:
     return defines + "".join(
         [
             _c_table(double, "t_radius", [s.radius for s in robot.spheres]),
-            _c_table(integer, "t_moves", moves),
+            _c_table(double, "t_idle", [0.0 if m else 1e300 for m in moves]),
             _c_table(double, "t_reach", reaches.T.ravel()),
             _c_table(double, "t_mask", mask.T.ravel()),
             _c_table(double, "t_lever", levers(robot, reaches, mask)),
             _c_table(integer, "t_pair_i", [i for i, _ in pairs]),
             _c_table(integer, "t_pair_j", [j for _, j in pairs]),
+            _c_table(double, "t_pair_radius", [_radii(robot, *pair) for pair in pairs]),
             _c_table(integer, "t_group_first", np.searchsorted(groups, bounds)),
+            *_block_tables(pairs, groups, len(masks)),
             _c_table(double, "t_pair_lever", pair_levers),
             _c_table(double, "t_group_i", np.ravel([m[0] for m in masks])),
             _c_table(double, "t_group_j", np.ravel([m[1] for m in masks])),

@@ -42,25 +42,50 @@ static near_t *world_add(world_t *world, int32_t sphere, int32_t other,
     return pair;
 }
 
+/* Least entry, in eight lanes that vectorise. */
+static double least_of(const double *values, int32_t count)
+{
+    double lanes[8], least = 1e300;
+    int32_t i = 0;
+    for (int32_t k = 0; k < 8; k++) {
+        lanes[k] = 1e300;
+    }
+    for (; i + 8 <= count; i += 8) {
+        for (int32_t k = 0; k < 8; k++) {
+            lanes[k] = values[i + k] < lanes[k] ? values[i + k] : lanes[k];
+        }
+    }
+    for (; i < count; i++) {
+        least = values[i] < least ? values[i] : least;
+    }
+    for (int32_t k = 0; k < 8; k++) {
+        least = lanes[k] < least ? lanes[k] : least;
+    }
+    return least;
+}
+
 /* Adds the spheres near obstacle o; 0 when the list overflows. */
 static int world_obstacle(world_t *world, const pose_t *pose, int32_t o,
                           double radius)
 {
     const int32_t kind = world->kind[o];
     const double *shape = world->shape + SHAPE * o;
-    double distance[NS], least = 1e300;
+    double distance[NS], spare[NS];
     k_gaps(kind, shape, pose->centers, distance);
     for (int32_t i = 0; i < NS; i++) {
-        const double gap = distance[i] - t_radius[i] - world->margin;
-        const double spare = t_moves[i] ? gap - radius * t_lever[i] : 1e300;
-        least = spare < least ? spare : least;
-        if (spare <= 0.0) {
-            double p[3], n[3], d;
-            center_of(pose, i, p);
-            k_distance(kind, p, shape, &d, n);
-            if (!world_add(world, i, o, -1, gap, n)) {
-                return 0;
-            }
+        distance[i] = distance[i] - t_radius[i] - world->margin;
+        spare[i] = distance[i] - radius * t_lever[i] + t_idle[i];
+    }
+    const double least = least_of(spare, NS);
+    for (int32_t i = 0; i < NS && least <= 0.0; i++) {
+        double p[3], n[3], d;
+        if (spare[i] > 0.0) {
+            continue;
+        }
+        center_of(pose, i, p);
+        k_distance(kind, p, shape, &d, n);
+        if (!world_add(world, i, o, -1, distance[i], n)) {
+            return 0;
         }
     }
     world->key[o] = world->way + least;
@@ -70,22 +95,26 @@ static int world_obstacle(world_t *world, const pose_t *pose, int32_t o,
 /* Adds the near pairs of group g; 0 when the list overflows. */
 static int world_group(world_t *world, const pose_t *pose, int32_t g, double radius)
 {
-    const int32_t first = t_group_first[g], last = t_group_first[g + 1];
-    double distance[NP + 1], least = 1e300;
-    k_pair_gaps(first, last, pose->centers, distance);
-    for (int32_t p = first; p < last; p++) {
-        const int32_t i = t_pair_i[p], j = t_pair_j[p];
-        const double gap = distance[p - first] - t_radius[i] - t_radius[j];
-        const double spare = gap - radius * t_pair_lever[p];
-        least = spare < least ? spare : least;
-        if (spare <= 0.0) {
-            double a[3], b[3], d, n[3];
-            center_of(pose, i, a);
-            center_of(pose, j, b);
-            k_distance_pair(a, b, &d, n);
-            if (!world_add(world, j, i, g, gap, n)) {
-                return 0;
-            }
+    const int32_t first = t_group_first[g], count = t_group_first[g + 1] - first;
+    double distance[NP + 1], spare[NP + 1];
+    spare[0] = 1e300;
+    k_pair_gaps(g, pose->centers, distance);
+    for (int32_t p = 0; p < count; p++) {
+        distance[p] = distance[p] - t_pair_radius[first + p];
+        spare[p] = distance[p] - radius * t_pair_lever[first + p];
+    }
+    const double least = least_of(spare, count);
+    for (int32_t p = 0; p < count && least <= 0.0; p++) {
+        double a[3], b[3], d, n[3];
+        if (spare[p] > 0.0) {
+            continue;
+        }
+        const int32_t i = t_pair_i[first + p], j = t_pair_j[first + p];
+        center_of(pose, i, a);
+        center_of(pose, j, b);
+        k_distance_pair(a, b, &d, n);
+        if (!world_add(world, j, i, g, distance[p], n)) {
+            return 0;
         }
     }
     world->group_key[g] = 2.0 * world->way + least;
@@ -114,23 +143,27 @@ static int world_near(world_t *world, const pose_t *pose, double radius)
 /* Does a pair break its promised clearance?  Stops at the first that does. */
 static int world_hit(const world_t *world, const pose_t *pose)
 {
-    double distance[NS + NP];
+    double gap[NS + NP];
     for (int32_t o = 0; o < world->count; o++) {
-        int hit = 0;
-        k_gaps(world->kind[o], world->shape + SHAPE * o, pose->centers, distance);
+        k_gaps(world->kind[o], world->shape + SHAPE * o, pose->centers, gap);
         for (int32_t i = 0; i < NS; i++) {
-            hit |= t_moves[i] && distance[i] - t_radius[i] - world->margin < 0.0;
+            gap[i] = gap[i] - t_radius[i] - world->margin + t_idle[i];
         }
-        if (hit) {
+        if (least_of(gap, NS) < 0.0) {
             return 1;
         }
     }
-    int hit = 0;
-    k_pair_gaps(0, NP, pose->centers, distance);
-    for (int32_t p = 0; p < NP; p++) {
-        hit |= distance[p] - t_radius[t_pair_i[p]] - t_radius[t_pair_j[p]] < 0.0;
+    for (int32_t g = 0; g < NG; g++) {
+        const int32_t first = t_group_first[g], count = t_group_first[g + 1] - first;
+        k_pair_gaps(g, pose->centers, gap);
+        for (int32_t p = 0; p < count; p++) {
+            gap[p] = gap[p] - t_pair_radius[first + p];
+        }
+        if (least_of(gap, count) < 0.0) {
+            return 1;
+        }
     }
-    return hit;
+    return 0;
 }
 
 /* Motion bound B of a pair for the increment u. */
