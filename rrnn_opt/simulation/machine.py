@@ -1,4 +1,4 @@
-"""The compiled loop: plant and network in one translation unit."""
+"""The compiled loop: plant, signals and network in one translation unit."""
 
 from __future__ import annotations
 
@@ -6,39 +6,28 @@ import ctypes
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import resources
+from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from rrnn_opt import emit
-from rrnn_opt.dynamics import Euler, NeuralDynamics
+from rrnn_opt.dynamics import DiscreteDynamics, Euler, NeuralDynamics
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.robot import Kinematics
+from rrnn_opt.simulation.multiplier import integrated
+from rrnn_opt.simulation.signals import RAW, Signals, Surroundings
+from rrnn_opt.simulation.split import only, split
 from rrnn_opt.simulation.task import Array
 from rrnn_opt.symbolic.symbol import Symbol
+from rrnn_opt.symbolic.tape import Tape
 
-_C_NAME = {"q": "q", "rd": "rd", "rd_dot": "rd_dot"}
-"""Parameters that the loop knows, and what they are called in its C text."""
+Law = NeuralDynamics | DiscreteDynamics
 
-_GLUE = """\
-#define LOOP_NV {nv}
-#define LOOP_STATE {state}
-static void loop_step(const double *state, const double *q, const double *rd,
-                      const double *rd_dot, double h, double *next, double *residual)
-{{
-    (void)q; (void)rd; (void)rd_dot;
-    loop_euler({arguments}, &h, next, residual);
-}}
-static void loop_output(const double *state, const double *q, const double *rd,
-                        const double *rd_dot, double *u)
-{{
-    (void)q; (void)rd; (void)rd_dot;
-    loop_command({arguments}, u);
-}}
-"""
+LEVELS = {"velocity": 0, "acceleration": 1, "increment": 2}
 
-_GIVEN = ("rd", "rd_dot", "task_noise", "joint_noise")
-_POINTERS = (*_GIVEN, "state", "q", "u", "qd", "tip")
+_GIVEN = ("settings", "rd", "rd_dot", "rd_ddot", "velocity_noise", "acceleration_noise")
+_POINTERS = (*_GIVEN, "state", "memory", "q", "u", "v", "qd", "tip")
 
 
 class _Run(ctypes.Structure):
@@ -47,9 +36,7 @@ class _Run(ctypes.Structure):
     _fields_ = (
         ("rows", ctypes.c_int64),
         ("most", ctypes.c_int64),
-        ("dt", ctypes.c_double),
         ("h", ctypes.c_double),
-        ("kappa", ctypes.c_double),
         ("tolerance", ctypes.c_double),
         *((name, ctypes.c_void_p) for name in _POINTERS),
         ("unsettled", ctypes.c_int64),
@@ -77,20 +64,42 @@ class Pace:
 
 
 @dataclass(frozen=True, eq=False)
+class Told:
+    """What a run is given, one row a control period.
+
+    Attributes:
+        rd: (rows, 3), m.
+        rd_dot: (rows, 3), m/s.
+        rd_ddot: (rows, 3), m/s2.
+        velocity_noise: (rows, nv), rad/s or m/s.
+        acceleration_noise: (rows, nv), rad/s2 or m/s2.
+    """
+
+    rd: Array
+    rd_dot: Array
+    rd_ddot: Array
+    velocity_noise: Array
+    acceleration_noise: Array
+
+
+@dataclass(frozen=True, eq=False)
 class Record:
     """What the loop wrote, one row a control period.
 
     Attributes:
         q: positions, (rows, nv), rad or m.
-        command: output of the network, (rows, nv), rad/s or m/s.
+        command: joint quantity commanded, (rows, nv): velocity, acceleration
+            or increment, by the scheme's level.
+        velocity: velocity without the noise on it, (rows, nv), rad/s or m/s.
         qd: velocity done, noise included, (rows, nv).
         tip: position of the frame, (rows, 3), m.
-        network_steps: Euler steps of the network in all.
+        network_steps: steps of the network in all.
         unsettled: periods that ended above the tolerance, if there is one.
     """
 
     q: Array
     command: Array
+    velocity: Array
     qd: Array
     tip: Array
     network_steps: int
@@ -105,107 +114,154 @@ class Machine:
         dynamics: the network in it.
         kin: kinematics of the plant.
         frame: tracked frame; None for the tip.
+        level: of the scheme.
         built: the shared object.
+        parameters: from the arguments ``RAW`` to the network's parameters.
+        begin: from the network's parameters to its state at the start.
+        memory: from the posture to the memory at the start.
+        tip: from the posture to the frame's position, m.
     """
 
-    dynamics: NeuralDynamics
+    dynamics: Law
     kin: Kinematics
     frame: str | None
+    level: str
     built: emit.Built
+    parameters: ca.Function
+    begin: ca.Function
+    memory: ca.Function
+    tip: ca.Function
     _entry: Callable[..., int]
 
-    def run(
-        self,
-        pace: Pace,
-        q0: Array,
-        reference: tuple[Array, Array],
-        noise: tuple[Array, Array],
-    ) -> Record:
+    def told(self, pace: Pace, q0: Array, told: Told) -> list[Array]:
+        """Parameters of the network in the first period."""
+        settings = [pace.dt, pace.kappa]
+        raw: list[Any] = [q0, np.zeros(q0.size), self.memory(q0)]
+        raw += [told.rd[0], told.rd_dot[0], told.rd_ddot[0], settings]
+        return [np.asarray(p, dtype=np.float64) for p in self.parameters.call(raw)]
+
+    def run(self, pace: Pace, q0: Array, told: Told) -> Record:
         """Run the whole task in C.
 
         Args:
             pace: how the loop goes.
-            q0: (nv,) start.
-            reference: rd and rd_dot, (rows, 3) each.
-            noise: on the joint velocity (rows, nv), on the task velocity (rows, 3).
+            q0: (nv,) start, at rest.
+            told: reference and noise.
         """
-        rows = len(reference[0])
-        given = (*reference, noise[1], noise[0])
-        data = {
-            name: np.ascontiguousarray(array, np.float64)
-            for name, array in zip(_GIVEN, given, strict=True)
-        }
-        data["state"] = np.zeros(self.dynamics.state.size)
-        data |= {name: np.zeros((rows, self.kin.robot.nv)) for name in ("q", "u", "qd")}
+        rows, nv = len(told.rd), self.kin.robot.nv
+        data = {"settings": np.array([pace.dt, pace.kappa])}
+        for name in _GIVEN[1:]:
+            data[name] = np.ascontiguousarray(getattr(told, name), np.float64)
+        start = self.begin.call(self.told(pace, q0, told))[0]
+        data["state"] = np.array(start, dtype=np.float64).ravel()
+        data["memory"] = np.append(np.array(self.memory(q0)).ravel(), 0.0)
+        data |= {name: np.zeros((rows, nv)) for name in ("q", "u", "v", "qd")}
         data["tip"] = np.zeros((rows, 3))
         data["q"][0] = q0
-        run = _Run(rows, pace.most, pace.dt, pace.h, pace.kappa, pace.tolerance)
+        run = _Run(rows, pace.most, pace.h, pace.tolerance)
         for name in _POINTERS:
             setattr(run, name, data[name].ctypes.data)
-        steps = self._entry(ctypes.byref(run))
+        steps = int(self._entry(ctypes.byref(run)))
         return Record(
-            data["q"], data["u"], data["qd"], data["tip"], int(steps), run.unsettled
+            q=data["q"],
+            command=data["u"],
+            velocity=data["v"],
+            qd=data["qd"],
+            tip=data["tip"],
+            network_steps=steps,
+            unsettled=run.unsettled,
         )
 
 
-def machine(dynamics: NeuralDynamics, kin: Kinematics, frame: str | None) -> Machine:
+def machine(
+    dynamics: Law,
+    kin: Kinematics,
+    frame: str | None,
+    around: Surroundings,
+    *,
+    epsilon: float,
+) -> Machine:
     """Compile the loop, or find it compiled.
 
     Args:
-        dynamics: output must be a joint velocity; parameters among q, rd, rd_dot.
+        dynamics: its first nv outputs must be the joint quantity.
         kin: of the robot.
         frame: tracked frame; None for the tip.
+        around: obstacles and contacts.
+        epsilon: time constant of an integrated multiplier, s.
 
     Raises:
         CompilerError: there is no C compiler.
         RrnnError: the network does not fit this loop.
     """
-    _require_fit(dynamics, kin.robot.nv)
-    built = emit.build(loop_source(dynamics, kin, frame), name="simulate")
+    nv = kin.robot.nv
+    if dynamics.output.size1() < nv:
+        raise RrnnError(f"{dynamics.name}: its output is no joint quantity ({nv}, 1)")
+    dynamics = integrated(dynamics, kin, frame, epsilon)
+    signals = Signals(kin, frame, around)
+    values = signals.tell(dynamics.parameters, dynamics.rates)
+    built = emit.build(_source(dynamics, signals, values), name="simulate")
     entry = emit.load(built)["rrnn_loop"]
     entry.restype, entry.argtypes = ctypes.c_int64, (ctypes.c_void_p,)
-    return Machine(dynamics, kin, frame, built, entry)
-
-
-def loop_source(dynamics: NeuralDynamics, kin: Kinematics, frame: str | None) -> str:
-    """The C text: emitted step, command and tip, and the hand-written loop."""
-    names = ["state", *(_C_NAME[p.name] for p in dynamics.parameters)]
-    glue = _GLUE.format(
-        nv=kin.robot.nv, state=dynamics.state.size, arguments=", ".join(names)
+    inputs = [p.sx for p in dynamics.parameters]
+    return Machine(
+        dynamics=dynamics,
+        kin=kin,
+        frame=frame,
+        level=_level(dynamics),
+        built=built,
+        parameters=ca.Function("told", [signals.raw[k] for k in RAW], values),
+        begin=ca.Function("begin", inputs, [dynamics.start]),
+        memory=signals.start(),
+        tip=ca.Function("tip", [kin.q], [signals.tip]),
+        _entry=entry,
     )
-    tip = ca.Function("tip", [kin.q], [kin.position(frame)], ["q"], ["tip"])
+
+
+def _level(dynamics: Law) -> str:
+    form = dynamics.formulation
+    return "velocity" if form is None else form.level
+
+
+def _source(dynamics: Law, signals: Signals, values: list[ca.SX]) -> str:
+    """The C text: emitted senses, step and command, and the hand-written loop."""
+    whole = Tape.of(_period(dynamics, signals, values))
+    sense, rest = split(whole, late=(0, 1), early_results=(3, 4))
+    sizes = {
+        "NV": signals.raw["q"].numel(),
+        "STATE": dynamics.state.size,
+        "MEMORY": max(signals.raw["memory"].numel(), 1),
+        "COEFFICIENTS": max(sense.outputs[-1].size, 1),
+        "LEVEL": LEVELS[_level(dynamics)],
+    }
     loop = resources.files("rrnn_opt.simulation") / "runtime" / "loop.c"
     return "\n".join(
         [
             emit.prologue(),
-            emit.c_function(tip, "loop_tip"),
-            emit.c_function(_euler(dynamics), "loop_euler"),
-            emit.c_function(dynamics.functions()["output"], "loop_command"),
-            glue,
+            *(f"#define LOOP_{name} {value}" for name, value in sizes.items()),
+            emit.c_function(sense, "loop_sense"),
+            emit.c_function(only(rest, (0, 1)), "loop_step"),
+            emit.c_function(only(rest, (2,)), "loop_output"),
             loop.read_text("utf-8"),
         ]
     )
 
 
-def _euler(dynamics: NeuralDynamics) -> ca.Function:
-    """State, parameters, h -> next state, largest component of the residual."""
-    step = dynamics.step(Euler(Symbol.vector("euler_h", 1, "s", "Euler step")))
-    symbols = (step.state, *step.parameters)
-    outputs = [step.next, ca.norm_inf(dynamics.residual)]
-    names = [s.name for s in symbols]
+def _period(dynamics: Law, signals: Signals, values: list[ca.SX]) -> ca.Function:
+    """State, h and the loop's own quantities to all that a period computes."""
+    h = Symbol.vector("euler_h", 1, "s", "Euler step")
+    step = dynamics.step(Euler(h))
+    nv = signals.raw["q"].numel()
+    parts = [step.next, ca.norm_inf(dynamics.residual), dynamics.output[:nv]]
+    symbols = [p.sx for p in dynamics.parameters]
+    parts = ca.substitute(parts, symbols, values)
+    following = signals.following if signals.following.numel() else ca.SX(0)
+    names = ["next", "residual", "u", "tip", "following"]
+    raw = [signals.raw[name] for name in RAW]
     return ca.Function(
-        "euler", [s.sx for s in symbols], outputs, names, ["next_state", "largest"]
+        "period",
+        [dynamics.state.sx, h.sx, *raw],
+        [*parts, signals.tip, following],
+        ["state", "h", *RAW],
+        names,
     )
-
-
-def _require_fit(dynamics: NeuralDynamics, nv: int) -> None:
-    unknown = [p.name for p in dynamics.parameters if p.name not in _C_NAME]
-    if unknown:
-        raise RrnnError(
-            f"{dynamics.name}: the loop gives {', '.join(_C_NAME)}, "
-            f"not parameter '{unknown[0]}'"
-        )
-    form = dynamics.formulation
-    velocity = form is None or form.level == "velocity"
-    if not velocity or dynamics.output.shape != (nv, 1):
-        raise RrnnError(f"{dynamics.name}: its output is no joint velocity ({nv}, 1)")

@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.robot import Robot
+from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.simulation.machine import Record
+from rrnn_opt.simulation.obstacles import least_clearance
 from rrnn_opt.simulation.task import Array, Task
 
 ROUNDING = 1e-9
@@ -31,6 +32,7 @@ class SimulationResult:
         reference: where the tip should be, (rows, 3), m.
         record: what the loop wrote.
         step: Euler step of the network, s.
+        level: what the scheme commands: velocity, acceleration or increment.
     """
 
     scheme: str
@@ -40,6 +42,7 @@ class SimulationResult:
     reference: Array
     record: Record
     step: float
+    level: str = "velocity"
 
     @property
     def q(self) -> Array:
@@ -53,7 +56,7 @@ class SimulationResult:
 
     @property
     def command(self) -> Array:
-        """Velocities commanded by the network, (rows, nv), rad/s or m/s."""
+        """Velocity, acceleration or increment commanded, (rows, nv)."""
         return self.record.command
 
     @property
@@ -78,15 +81,28 @@ class SimulationResult:
 
     @property
     def limits_kept(self) -> bool:
-        """Positions reached and velocities commanded within the robot's limits.
+        """Positions, velocities and commands within the robot's limits.
 
-        The noise acts behind the command: velocities done are not judged.
+        Noise on the velocity acts behind the command: the velocity judged is
+        that without it.  Accelerations are judged where they are commanded.
         """
         limits = self.robot.limits
         low = (self.q >= limits.lower - ROUNDING).all()
         high = (self.q <= limits.upper + ROUNDING).all()
-        slow = (np.abs(self.command) <= limits.velocity + ROUNDING).all()
-        return bool(low and high and slow)
+        speed = self.record.velocity
+        slow = (np.abs(speed) <= limits.velocity + ROUNDING).all()
+        kept = bool(low and high and slow)
+        if self.level == "acceleration":
+            excess = np.abs(self.command) - limits.acceleration
+            return kept and bool((excess <= ROUNDING).all())
+        return kept
+
+    @cached_property
+    def least_clearance_m(self) -> float | None:
+        """Least clearance of a moving sphere at a row, m; None without obstacles."""
+        if not len(self.task.scene):
+            return None
+        return least_clearance(Kinematics(self.robot), self.task.scene, self.q)
 
     @property
     def steps(self) -> int:
@@ -111,6 +127,7 @@ class SimulationResult:
             "robot": self.robot.name,
             "network_steps": self.record.network_steps,
             "unsettled": self.record.unsettled,
+            "least_clearance_m": self.least_clearance_m,
         }
 
     def write_csv(self, path: str | Path) -> None:

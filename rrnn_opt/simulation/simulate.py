@@ -2,30 +2,21 @@
 
 from __future__ import annotations
 
-import inspect
 import math
-from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache
-from typing import cast
 
 import casadi as ca
 import numpy as np
 
-from rrnn_opt import formulations
-from rrnn_opt.dynamics import NeuralDynamics
+from rrnn_opt.dynamics import DiscreteDynamics
 from rrnn_opt.errors import ProblemError, RrnnError
-from rrnn_opt.formulation import Formulation
-from rrnn_opt.networks import PrimalDual
 from rrnn_opt.networks.step_size import settling_step
-from rrnn_opt.robot import Kinematics, Robot
-from rrnn_opt.simulation.machine import Machine, Pace, Record, machine
+from rrnn_opt.robot import Robot
+from rrnn_opt.simulation.machine import Machine, Pace, Record, Told
+from rrnn_opt.simulation.prepare import Network, Scheme, prepared
 from rrnn_opt.simulation.reference import reference
 from rrnn_opt.simulation.result import SimulationResult
 from rrnn_opt.simulation.task import Array, Task
-
-Scheme = Callable[..., Formulation]
-Network = Callable[[Formulation], NeuralDynamics]
 
 SETTLED = 1e-9
 """Network residual at which the reduced law counts as reached."""
@@ -45,20 +36,21 @@ def simulate(
 ) -> SimulationResult:
     """Track the task's curve with one scheme, closed loop, in compiled C.
 
-    The plant is of first order: q+ = q + dt (u + noise).  Under the "reduced"
-    law the network settles in every control period (its state is carried over,
-    so that few steps are needed); under the "literal" law it runs in time, its
-    Euler steps filling the period: for ``position_feedback`` this is (17) as
-    printed, of second order.  rd_dot is the curve's, plus kappa times the
-    measured error.
+    A scheme of velocities meets a plant of first order, q' = u + noise; one of
+    accelerations a plant of second order; one of increments makes its step in
+    each period.  Under the "reduced" law the network settles in every control
+    period (its state is carried over, so that few steps are needed); under the
+    "literal" law it runs in time, its Euler steps filling the period: for
+    ``position_feedback`` this is (17) as printed, of second order.  What the
+    scheme is told is in ``signals``; rd_dot is the curve's, plus kappa times
+    the measured error.
 
     Args:
-        scheme: function of the kinematics that returns a formulation in the
-            joint velocity with parameters among q, rd and rd_dot; it is given
-            ``frame`` and ``epsilon`` if it takes them.  Or the name of one in
-            ``rrnn_opt.formulations``.
+        scheme: function of the kinematics that returns a formulation; it is
+            given ``frame``, ``epsilon`` and ``contacts`` if it takes them.  Or
+            the name of one in ``rrnn_opt.formulations``.
         robot: the robot.
-        task: curve, start, control and noise.
+        task: curve, start, control, noise and obstacles.
         network: rule that makes the dynamics; ``PrimalDual`` with the task's
             epsilon by default.
 
@@ -68,17 +60,18 @@ def simulate(
     Raises:
         ProblemError: the task does not fit the robot or the scheme.
         CompilerError: there is no C compiler.
-        RrnnError: the network diverges for every step tried.
+        RrnnError: the loop has no signal of some name, or the network diverges
+            for every step tried.
     """
     _require_fit(task, robot)
-    function = _named(scheme) if isinstance(scheme, str) else scheme
-    loop = _machine(function, robot, task.frame, task.control.epsilon, network)
-    _require_told(task, loop.dynamics)
+    loop = prepared(scheme, robot, task, network)
+    _require_told(task, loop)
     t: Array = task.control.dt * np.arange(task.steps + 1, dtype=np.float64)
-    values = reference(task.curve, _tip(loop, task.q0), t)
-    pace = _pace(loop, task, values)
-    noise = _noise(task, t.size, robot.nv)
-    record, h = _run(loop, pace, task.q0, values, noise)
+    tip = np.asarray(loop.tip(task.q0), dtype=np.float64).ravel()
+    values = reference(task.curve, tip, t)
+    told = _told(task, values, robot.nv, loop.level)
+    pace = _pace(loop, task, told)
+    record, h = _run(loop, pace, task.q0, told)
     return SimulationResult(
         scheme=loop.dynamics.name,
         robot=robot,
@@ -87,73 +80,53 @@ def simulate(
         reference=values[0],
         record=record,
         step=h,
+        level=loop.level,
     )
 
 
-def _named(name: str) -> Scheme:
-    if name not in formulations.__all__:
-        known = ", ".join(formulations.__all__)
-        raise ProblemError("formulation", f"no scheme '{name}'; known: {known}")
-    return cast(Scheme, getattr(formulations, name))
-
-
-@lru_cache(maxsize=16)
-def _machine(
-    scheme: Scheme,
-    robot: Robot,
-    frame: str | None,
-    epsilon: float,
-    network: Network | None,
-) -> Machine:
-    """Declare, make the network and compile; remembered for the last few."""
-    kin = Kinematics(robot)
-    settings = {"frame": frame, "epsilon": epsilon}
-    taken = inspect.signature(scheme).parameters
-    form = scheme(kin, **{k: v for k, v in settings.items() if k in taken})
-    rule = PrimalDual(epsilon=epsilon) if network is None else network
-    return machine(rule(form), kin, frame)
-
-
-def _tip(loop: Machine, q: Array) -> Array:
-    position = ca.Function("tip", [loop.kin.q], [loop.kin.position(loop.frame)])
-    return np.asarray(position(q), dtype=np.float64).ravel()
-
-
-def _pace(loop: Machine, task: Task, values: tuple[Array, Array]) -> Pace:
+def _pace(loop: Machine, task: Task, told: Told) -> Pace:
     """Step and number of steps of the network; see ``settling_step``."""
-    control, dynamics = task.control, loop.dynamics
-    known = {"q": task.q0, "rd": values[0][0], "rd_dot": values[1][0]}
-    parameters = [known[p.name] for p in dynamics.parameters]
-    h = settling_step(dynamics, np.zeros(dynamics.state.size), parameters)
+    control = task.control
+    still = Pace(control.dt, control.kappa, 1.0, 1, -1.0)
+    h = _step(loop, loop.told(still, task.q0, told))
     if control.law == "literal":
         most = control.steps or math.ceil(_FINE * control.dt / h * (1.0 - 1e-9))
-        return Pace(control.dt, control.kappa, control.dt / most, most, -1.0)
-    return Pace(control.dt, control.kappa, h, control.steps or MOST, SETTLED)
+        return replace(still, h=control.dt / most, most=most)
+    return replace(still, h=h, most=control.steps or MOST, tolerance=SETTLED)
 
 
-def _noise(task: Task, rows: int, nv: int) -> tuple[Array, Array]:
-    """Noise on the joint velocity (rows, nv) and on the told rd_dot (rows, 3)."""
-    noise = task.noise
-    rng = np.random.default_rng(noise.seed)
-    joint, told = np.zeros((rows, nv)), np.zeros((rows, 3))
+def _step(loop: Machine, parameters: list[Array]) -> float:
+    """A step for the first period; a map has none."""
+    dynamics = loop.dynamics
+    if isinstance(dynamics, DiscreteDynamics):
+        return 1.0
+    start = np.array(loop.begin.call(parameters)[0], dtype=np.float64).ravel()
+    return min(settling_step(dynamics, start, parameters), dynamics.longest_step)
+
+
+def _told(task: Task, values: tuple[Array, Array, Array], nv: int, level: str) -> Told:
+    """The reference, and the noise where it enters."""
+    noise, dt = task.noise, task.control.dt
+    rd, rd_dot, rd_ddot = values
+    rng, rows = np.random.default_rng(noise.seed), len(rd)
+    joint, force = np.zeros((rows, nv)), np.zeros((rows, nv))
     if noise.enters == "task_velocity":
-        return joint, noise.sigma * rng.standard_normal((rows, 3))
+        draws = noise.sigma * rng.standard_normal((rows, 3))
+        rd_dot = rd_dot + draws
+        rd_ddot = rd_ddot + np.diff(draws, axis=0, prepend=0.0) / dt
+        return Told(rd, rd_dot, rd_ddot, joint, force)
     draws = noise.sigma * rng.standard_normal((rows, nv))
-    if noise.enters == "acceleration":
-        draws = task.control.dt * np.cumsum(draws, axis=0)
-    return draws, told
+    if noise.enters == "joint_velocity":
+        return Told(rd, rd_dot, rd_ddot, draws, force)
+    if level == "acceleration":
+        return Told(rd, rd_dot, rd_ddot, joint, draws)
+    return Told(rd, rd_dot, rd_ddot, dt * np.cumsum(draws, axis=0), force)
 
 
-def _run(
-    loop: Machine,
-    pace: Pace,
-    q0: Array,
-    values: tuple[Array, Array],
-    noise: tuple[Array, Array],
-) -> tuple[Record, float]:
+def _run(loop: Machine, pace: Pace, q0: Array, told: Told) -> tuple[Record, float]:
     """Run; under the reduced law a step that diverges is shortened."""
     for _ in range(_ATTEMPTS):
-        record = loop.run(pace, q0, values, noise)
+        record = loop.run(pace, q0, told)
         if np.isfinite(record.command).all() and np.isfinite(record.q).all():
             return record, pace.h
         if pace.tolerance < 0.0:
@@ -178,13 +151,17 @@ def _require_fit(task: Task, robot: Robot) -> None:
     robot.frame(task.frame)
 
 
-def _require_told(task: Task, dynamics: NeuralDynamics) -> None:
+def _require_told(task: Task, loop: Machine) -> None:
     """Noise and feedback that act on rd_dot need a scheme that is told it."""
-    if any(p.name == "rd_dot" for p in dynamics.parameters):
-        return
-    if task.noise.enters == "task_velocity" and task.noise.sigma > 0.0:
-        message = f"'{dynamics.name}' is not told rd_dot; use joint_velocity"
+    raw = loop.parameters.sx_in()
+    seen = [
+        ca.depends_on(ca.vertcat(*map(ca.vec, loop.parameters.call(raw))), raw[k])
+        for k in (4, 5)
+    ]
+    name = loop.dynamics.name
+    if not any(seen) and task.noise.enters == "task_velocity" and task.noise.sigma > 0:
+        message = f"'{name}' is not told rd_dot; use joint_velocity"
         raise ProblemError("noise.enters", message)
-    if task.control.kappa > 0.0:
-        message = f"'{dynamics.name}' is not told rd_dot; leave kappa out"
+    if not seen[0] and task.control.kappa > 0.0:
+        message = f"'{name}' is not told rd_dot; leave kappa out"
         raise ProblemError("control.kappa", message)

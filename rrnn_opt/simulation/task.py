@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from rrnn_opt.scene import Scene
 from rrnn_opt.scene.fields import not_negative
 
 Array = NDArray[np.float64]
@@ -74,9 +75,10 @@ class Noise:
 
     Attributes:
         enters: "joint_velocity": added to the joint velocity, rad/s;
-            "task_velocity": added to the rd_dot that the scheme is told, m/s;
-            "acceleration": its sum times dt is added to the joint velocity,
-            rad/s2.
+            "task_velocity": added to the rd_dot that the scheme is told, m/s,
+            and its difference quotient to the rd_ddot;
+            "acceleration": added to the joint acceleration, rad/s2; for a
+            scheme of velocities its sum times dt is added to the velocity.
         sigma: standard deviation.
         seed: of the generator.
     """
@@ -96,6 +98,9 @@ class Task:
         frame: tracked frame; None for the robot's tip.
         control: settings of the loop.
         noise: settings of the noise.
+        scene: obstacles; without any, no contact is ever active.
+        contacts: index of the robot's sphere in each contact that a scheme
+            with contacts is told of; None: with obstacles, one sphere a link.
     """
 
     curve: Curve
@@ -103,6 +108,8 @@ class Task:
     frame: str | None = None
     control: Control = field(default_factory=Control)
     noise: Noise = field(default_factory=Noise)
+    scene: Scene = field(default_factory=Scene)
+    contacts: tuple[int, ...] | None = None
 
     @property
     def steps(self) -> int:

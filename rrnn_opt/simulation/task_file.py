@@ -10,6 +10,7 @@ from typing import Any
 
 from rrnn_opt.errors import DocumentError, ProblemError
 from rrnn_opt.scene.fields import not_negative, positive, record, text, vector
+from rrnn_opt.scene.reading import scene_from_list
 from rrnn_opt.simulation.task import (
     ENTRANCES,
     KINDS,
@@ -51,7 +52,7 @@ def task_from_dict(document: Mapping[str, Any]) -> Task:
         ProblemError: a field is missing, unknown or wrong; it is named.
     """
     parts = record(
-        document, "", required=("task", "robot"), optional=("control", "noise")
+        document, "", required=("task", "robot"), optional=("control", "noise", "scene")
     )
     robot = record(parts["robot"], "robot", required=("q0",), optional=("frame",))
     q0 = robot["q0"]
@@ -62,6 +63,7 @@ def task_from_dict(document: Mapping[str, Any]) -> Task:
         frame=text(robot["frame"], "robot.frame") if "frame" in robot else None,
         control=_control(parts.get("control", {})),
         noise=_noise(parts.get("noise", {})),
+        **_scene(parts.get("scene", {})),
     )
     if not 1 <= task.steps <= MOST_STEPS:
         message = f"must make 1 to {MOST_STEPS} control steps of control.dt"
@@ -140,6 +142,18 @@ def _noise(value: Any) -> Noise:
         sigma=not_negative(entry.get("sigma", 0.0), "noise.sigma"),
         seed=_whole(entry.get("seed", 0), "noise.seed", 0),
     )
+
+
+def _scene(value: Any) -> dict[str, Any]:
+    entry = record(value, "scene", required=(), optional=("obstacles", "contacts"))
+    scene = scene_from_list(entry.get("obstacles", []), "scene.obstacles")
+    given = entry.get("contacts")
+    if given is None:
+        return {"scene": scene, "contacts": None}
+    if not isinstance(given, list | tuple):
+        raise ProblemError("scene.contacts", "expected a list of sphere indices")
+    found = (_whole(k, f"scene.contacts[{i}]", 0) for i, k in enumerate(given))
+    return {"scene": scene, "contacts": tuple(found)}
 
 
 def _whole(value: Any, name: str, least: int) -> int:

@@ -21,11 +21,13 @@ CURVES = [
 
 
 @pytest.mark.parametrize("curve", CURVES, ids=lambda c: f"{c.kind}-{c.profile}")
-def test_the_velocity_is_the_derivative(curve):
+def test_velocity_and_acceleration_are_the_derivatives(curve):
     t, h = np.linspace(0.1, 7.9, 60), 1e-6
-    after, before = reference(curve, TIP, t + h)[0], reference(curve, TIP, t - h)[0]
-    velocity = reference(curve, TIP, t)[1]
-    np.testing.assert_allclose((after - before) / (2 * h), velocity, atol=1e-8)
+    after, before = reference(curve, TIP, t + h), reference(curve, TIP, t - h)
+    _, velocity, acceleration = reference(curve, TIP, t)
+    slope, bend = ((after[k] - before[k]) / (2 * h) for k in (0, 1))
+    np.testing.assert_allclose(slope, velocity, atol=1e-8)
+    np.testing.assert_allclose(bend, acceleration, atol=1e-8)
 
 
 @pytest.mark.parametrize("curve", CURVES, ids=lambda c: f"{c.kind}-{c.profile}")
@@ -37,7 +39,7 @@ def test_a_curve_through_the_start_starts_there(curve):
 
 def test_the_smooth_profile_rests_at_both_ends_and_runs_back():
     curve = CURVES[0]
-    rd, rd_dot = reference(curve, TIP, np.array([0.0, 4.0, 8.0, 1.0, 7.0]))
+    rd, rd_dot, _ = reference(curve, TIP, np.array([0.0, 4.0, 8.0, 1.0, 7.0]))
     np.testing.assert_allclose(rd_dot[:3], 0.0, atol=1e-15)
     np.testing.assert_allclose(rd[:3], np.tile(TIP, (3, 1)), atol=1e-15)
     np.testing.assert_allclose(rd[3], rd[4])
@@ -67,6 +69,6 @@ def test_a_line_ends_where_it_should_and_a_point_stays():
     np.testing.assert_allclose(end, [TIP + OFFSET / 2, TIP + OFFSET])
     end = reference(CURVES[6], TIP, np.array([4.0]))[0][0]
     np.testing.assert_allclose(end, CENTRE, atol=1e-15)
-    rd, rd_dot = reference(CURVES[7], TIP, np.array([0.0, 3.0]))
+    rd, rd_dot, _ = reference(CURVES[7], TIP, np.array([0.0, 3.0]))
     np.testing.assert_allclose(rd, np.tile(TIP + OFFSET, (2, 1)))
     assert not rd_dot.any()

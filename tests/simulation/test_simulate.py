@@ -9,9 +9,11 @@ from scipy.integrate import solve_ivp
 
 import rrnn_opt as rr
 from rrnn_opt.errors import CompilerError, ProblemError, RobotError, RrnnError
-from rrnn_opt.formulations import minimum_velocity, position_feedback, slide
+from rrnn_opt.formulations import minimum_velocity, position_feedback
+from rrnn_opt.networks import PrimalDual
 from rrnn_opt.simulation import Curve, machine
 from rrnn_opt.simulation.simulate import simulate
+from rrnn_opt.symbolic import Symbol
 
 
 def plant(robot):
@@ -140,7 +142,7 @@ def test_limits_are_watched(pa10, circle):
     task = circle(duration=1.0)
     result = simulate(position_feedback, pa10, task)
     assert result.limits_kept
-    fast = replace(result.record, command=result.command + 8.0)
+    fast = replace(result.record, velocity=result.record.velocity + 8.0)
     assert not replace(result, record=fast).limits_kept
     far = replace(result.record, q=result.q - 9.0)
     assert not replace(result, record=far).limits_kept
@@ -196,16 +198,25 @@ def test_a_task_that_does_not_fit_is_refused(pa10, circle):
         simulate(position_feedback, pa10, circle(sigma=0.1, enters="task_velocity"))
     with pytest.raises(ProblemError, match="no scheme 'fastest'"):
         simulate("fastest", pa10, task)
-    with pytest.raises(RrnnError, match="attraction"):
-        simulate(slide, pa10, task)
 
 
-def test_a_scheme_of_another_level_is_refused(pa10, circle):
-    def accelerations(kin):
-        return replace(position_feedback(kin), level="acceleration")
+def test_a_signal_that_the_loop_has_not_is_named(pa10, circle):
+    def torques(kin):
+        weather = Symbol.vector("weather", 1)
+        form = position_feedback(kin)
+        return replace(form, parameters=(*form.parameters, weather))
 
-    with pytest.raises(RrnnError, match="no joint velocity"):
-        simulate(accelerations, pa10, circle())
+    with pytest.raises(RrnnError, match="weather"):
+        simulate(torques, pa10, circle())
+
+
+def test_an_output_that_is_no_joint_quantity_is_refused(pa10, circle):
+    def short(form):
+        network = PrimalDual()(form)
+        return replace(network, output=network.output[:3])
+
+    with pytest.raises(RrnnError, match="joint quantity"):
+        simulate(position_feedback, pa10, circle(), network=short)
 
 
 def test_a_diverging_run_says_so(pa10, circle):
