@@ -11,13 +11,7 @@ from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks.kkt import OPERATIONS, Kkt, kkt_needs
-from rrnn_opt.networks.network import (
-    ARITHMETIC,
-    CLIPPING,
-    Needs,
-    Network,
-    require_positive,
-)
+from rrnn_opt.networks.network import ARITHMETIC, Needs, Network, require_positive
 from rrnn_opt.symbolic.symbol import Symbol
 
 
@@ -101,7 +95,7 @@ class VaryingGainZnn(Network):
     @property
     def operations(self) -> frozenset[str]:
         """Products, sums, a factorisation, and the switch of the gain."""
-        return ARITHMETIC | OPERATIONS | CLIPPING | {"lt", "if_else_zero"}
+        return ARITHMETIC | OPERATIONS | {"fmin", "lt", "if_else_zero"}
 
     def euler_bound(self, form: Formulation, **parameters: ArrayLike) -> float:
         """``2 / cap``: the modes at the largest gain."""
