@@ -122,16 +122,22 @@ def test_transpose_sign_sets_are_what_they_say(every):
         np.testing.assert_allclose(far.ub, high)
 
 
+@pytest.fixture(scope="module")
+def signed(pa10):
+    """Sign sets and sign rows of the arm's last sphere."""
+    chosen = {"contacts": (last(pa10),)}
+    return joint_sign_sets(pa10, **chosen).qp, sign_rows(pa10, **chosen).qp
+
+
 @LAWS
 @given(st.integers(0, 999), st.lists(st.floats(0, 1), min_size=7, max_size=7))
-def test_transpose_sets_and_sign_rows_admit_no_approach(arms, seed, share):
-    kin, sphere = arms["pa10"], last(arms["pa10"])
-    given = near(kin, seed) | {"rd": np.zeros(3)}
-    box = joint_sign_sets(kin, contacts=(sphere,)).qp.at(**given)
+def test_transpose_sets_and_sign_rows_admit_no_approach(pa10, signed, seed, share):
+    given = near(pa10, seed) | {"rd": np.zeros(3)}
+    box = signed[0].at(**given)
     u = box.lb + (box.ub - box.lb) * np.array(share)
-    rate = given["normals"].T @ sphere_jacobian(kin, sphere, given["q"])
+    rate = given["normals"].T @ sphere_jacobian(pa10, last(pa10), given["q"])
     assert rate @ u >= -1e-7
-    rows = sign_rows(kin, contacts=(sphere,)).qp.at(**given)
+    rows = signed[1].at(**given)
     if np.all(rows.G @ u <= rows.h):
         assert rate @ u >= -1e-7
 
@@ -257,3 +263,15 @@ def test_gradient_projection_may_run_into_what_it_shuns(planar3):
     problem = form.qp.at(**given, clearances=np.array([0.0]))
     u = qpsolvers.solve_problem(problem, solver="daqp").x
     assert (LEFT_WALL.T @ sphere_jacobian(planar3, sphere, q) @ u).item() < -0.05
+
+
+def test_sign_rows_stand_only_while_a_contact_is_critical(every):
+    form = sign_rows(every, contacts=(last(every),), safe=0.05)
+    given = near(every, 9) | {"rd": np.zeros(3)}
+    close = form.qp.at(**given)
+    J = sphere_jacobian(every, last(every), given["q"])
+    np.testing.assert_allclose(close.G, -np.sign(given["normals"]) * J, atol=1e-8)
+    far = form.qp.at(**given | {"clearances": np.array([0.051])})
+    assert not far.G.any()
+    assert not close.h.any()
+    assert not far.h.any()
