@@ -3,7 +3,9 @@
 ``python -m benchmarks.soak [--hours H]`` takes up every shipped scenario and
 start with ever new seeds.  Each plan is one line of ``results/soak.jsonl``; a
 run that is stopped goes on where it ended.  Nothing may be called solved that
-the checker does not prove again; the table is ``results/soak.md``.
+the checker does not prove again, or whose motion, followed by conservative
+advancement on coal's distances, touches anything.  The table is
+``results/soak.md``.
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+from benchmarks.follow import follow
 from rrnn_opt.check import check_plan
 from rrnn_opt.planning import Problem, plan
 from rrnn_opt.report import table, write_text
@@ -61,12 +64,16 @@ def judged(name: str, start: int, seed: int) -> dict[str, object]:
     document = plan(problem, seed=seed).to_dict()
     found = check_plan(document)
     stats = document["stats"]
+    solved = document["status"] == "solved"
+    walked = follow(document) if solved else None
     return {
         "scenario": name,
         "start": start,
         "seed": seed,
         "status": document["status"],
-        "overstated": bool(found.disagreements),
+        "overstated": bool(found.disagreements)
+        or (walked is not None and (walked.least <= 0.0 or walked.outside > 1e-9)),
+        "least_gap_m": None if walked is None else walked.least,
         "explorations": stats["explorations"],
         "plan_time_s": stats["plan_time_s"],
     }
