@@ -20,6 +20,7 @@ from rrnn_opt.formulations import (
     repetitive_motion,
     slack_task,
 )
+from rrnn_opt.formulations.manipulability import gram_determinant
 from tests.formulations.points import (
     bounds10,
     data,
@@ -312,3 +313,13 @@ def test_of_all_accelerations_it_takes_the_smallest(pa10):
     spring = w * w * (limits.upper - q) - 2 * w * qd
     high = [spring, 20 * (limits.velocity - qd), limits.acceleration]
     np.testing.assert_allclose(p.ub, np.minimum.reduce(high))
+
+
+def test_a_determinant_that_rounds_below_zero_still_means_full_damping(planar3):
+    q = np.array([1.8951213247291925, 0.0, 0.0])
+    square = ca.Function("w2", [planar3.q], [gram_determinant(planar3)])(q)
+    assert float(square) < 0.0
+    form = damped_least_squares(planar3, damping=0.1, threshold=0.05)
+    given = {"q": q, "rd_dot": np.array([0.02, -0.01, 0.0])}
+    want = damped(jacobian(planar3, q), given["rd_dot"], np.full(3, 0.01))
+    np.testing.assert_allclose(solve(form, given)[:3], want, atol=1e-9)
