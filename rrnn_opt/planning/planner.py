@@ -18,9 +18,11 @@ from rrnn_opt.planning.problem import Problem
 from rrnn_opt.planning.refine import refine
 from rrnn_opt.planning.request import pack
 from rrnn_opt.planning.result import PlanResult, PlanStats
-from rrnn_opt.planning.runtime_cache import runtime_of
+from rrnn_opt.planning.rollout_library import point_goals, thinned
+from rrnn_opt.planning.rollout_settings import SingleRollout
 from rrnn_opt.planning.runtime_library import Runtime, Search
-from rrnn_opt.planning.settings import PLANNERS, RandomRnn
+from rrnn_opt.planning.searches import open_search, runtime_for
+from rrnn_opt.planning.settings import PLANNERS, PlannerSettings, RandomRnn
 from rrnn_opt.planning.structs import SearchCounts
 
 Array = NDArray[np.float64]
@@ -36,7 +38,7 @@ class _Run:
     problem: Problem
     seed: int
     planner: str
-    settings: RandomRnn
+    settings: PlannerSettings
     begin: float
     counts: SearchCounts | None = None
     activity: tuple[float, ...] = ()
@@ -82,7 +84,7 @@ def plan(
     *,
     seed: int = 0,
     planner: str = "random-rnn",
-    settings: RandomRnn | None = None,
+    settings: PlannerSettings | None = None,
     time_limit: float | None = None,
     max_explorations: int = DEFAULT_EXPLORATIONS,
     on_progress: Progress | None = None,
@@ -93,7 +95,9 @@ def plan(
         problem: robot, start, goals and scene.
         seed: of all randomness; without a time limit the same seed gives the
             same plan on the same machine and compiler.
-        planner: "random-rnn", or "no-learning" (a fair coin for the cell).
+        planner: a name of ``PLANNERS``: "random-rnn"; "no-learning", with a fair
+            coin for the cell; "paper", Algorithm 1 as printed; "method1" and
+            "method2", single rollouts of the comparison schemes.
         settings: numbers of the planner; by default those of its name.
         time_limit: seconds for the search, or None.
         max_explorations: rollouts started at most.
@@ -103,7 +107,8 @@ def plan(
         A result in every case that the problem's data allow; see its status.
 
     Raises:
-        ProblemError: the planner's name or a budget is not valid.
+        ProblemError: the planner's name or a budget is not valid, or the planner
+            cannot be given such a goal.
         CompilerError: there is no C compiler.
     """
     chosen = settings or _settings(planner)
@@ -111,12 +116,12 @@ def plan(
         raise ProblemError("budget", "explorations and time limit must be positive")
     run = _Run(problem, seed, planner, chosen, time.perf_counter())
     begin = time.perf_counter()
-    runtime = runtime_of(problem.robot, chosen.cell)
+    runtime = runtime_for(problem.robot, chosen)
     run.times["compile_time_s"] = time.perf_counter() - begin
     return _planned(run, runtime, time_limit, max_explorations, on_progress)
 
 
-def _settings(planner: str) -> RandomRnn:
+def _settings(planner: str) -> PlannerSettings:
     if planner not in PLANNERS:
         known = ", ".join(PLANNERS)
         raise ProblemError("planner", f"no planner '{planner}'; there are {known}")
@@ -131,13 +136,15 @@ def _planned(
     on_progress: Progress | None,
 ) -> PlanResult:
     packed = pack(run.problem, (), (), run.seed)
-    with Search(runtime, run.settings, packed.struct, packed.keep) as probe:
+    with open_search(runtime, run.settings, packed) as probe:
         hit = blocked(run.problem, probe, run.problem.start, "start")
         goals = hit or open_goals(run.problem, probe)
     if isinstance(goals, Infeasible):
         return run.result("infeasible", goals.message, witness=goals.witness)
+    if not isinstance(run.settings, RandomRnn):
+        goals = point_goals(goals, run.planner)
     packed = pack(run.problem, goals.joints, goals.tips, run.seed)
-    with Search(runtime, run.settings, packed.struct, packed.keep) as search:
+    with open_search(runtime, run.settings, packed) as search:
         try:
             status = _search(run, search, time_limit, budget, on_progress)
             if status == "solved":
@@ -176,7 +183,9 @@ def _search(
 
 
 def _why(status: str, run: _Run, goals: OpenGoals) -> str:
-    if status == "no_goal_posture":
+    if status == "budget_exhausted" and isinstance(run.settings, SingleRollout):
+        return "the single rollout did not reach the goal; this proves nothing"
+    if status == "no_goal_posture" and isinstance(run.settings, RandomRnn):
         tries = run.settings.ik_tries + 1
         return (
             f"inverse kinematics found no free goal posture in {tries} tries for"
@@ -195,9 +204,12 @@ def _delivered(
 
     def another(number: int) -> Search:
         packed = pack(run.problem, goals.joints, goals.tips, run.seed, number)
-        return Search(runtime, run.settings, packed.struct, packed.keep)
+        return open_search(runtime, run.settings, packed)
 
-    run.path = refine(search, another, run.settings, run.seed)
+    if isinstance(run.settings, RandomRnn):
+        run.path = refine(search, another, run.settings, run.seed)
+    else:
+        run.path = thinned(search, run.path)
     run.times["refine_time_s"] = time.perf_counter() - begin
     try:
         delivery = _timed(run, run.path)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from rrnn_opt.networks import MemoryCell
+from rrnn_opt.planning.rollout_settings import PaperRnn, RolloutSettings, SingleRollout
 
 
 @dataclass(frozen=True)
@@ -64,4 +65,13 @@ class RandomRnn:
     shorten_slides: int = 20
 
 
-PLANNERS = {"random-rnn": RandomRnn(), "no-learning": RandomRnn(coin=0.5)}
+PlannerSettings = RandomRnn | RolloutSettings
+
+PLANNERS: dict[str, PlannerSettings] = {
+    "random-rnn": RandomRnn(),
+    "no-learning": RandomRnn(coin=0.5),
+    "paper": PaperRnn(),
+    "method1": SingleRollout(level="velocity"),
+    "method2": SingleRollout(level="acceleration"),
+}
+"""What each planner's name stands for; the type decides the search."""

@@ -1,0 +1,171 @@
+"""Rollouts of the printed schemes in the compiled runtime."""
+
+from __future__ import annotations
+
+import ctypes as ct
+import json
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rrnn_opt import emit
+from rrnn_opt.errors import ProblemError, RrnnError
+from rrnn_opt.planning.feasibility import OpenGoals
+from rrnn_opt.planning.rollout_kernel import rollout_source
+from rrnn_opt.planning.rollout_settings import PaperRnn, RolloutSettings
+from rrnn_opt.planning.rollout_structs import RolloutStruct, rollout_struct
+from rrnn_opt.planning.runtime_library import FLAGS, STATUS, Runtime, Search
+from rrnn_opt.planning.settings import RandomRnn
+from rrnn_opt.planning.structs import Request
+from rrnn_opt.robot import Robot
+
+Array = NDArray[np.float64]
+CHORD = 0.1
+"""Longest chord of a path that is handed on, rad."""
+
+
+class RolloutRuntime(Runtime):
+    """The compiled planner with the printed schemes' rollouts."""
+
+    def __init__(self, robot: Robot, settings: RolloutSettings) -> None:
+        self.robot = robot
+        text = rollout_source(robot, settings.cell, settings)
+        self.built = emit.build(text, name=f"rollouts_{robot.nv}", flags=FLAGS)
+        self._library = emit.load(self.built)
+
+
+@dataclass(frozen=True)
+class _Key:
+    """A robot and settings that equal others when all their numbers do."""
+
+    text: str
+    settings: RolloutSettings
+    robot: Robot
+
+    def __eq__(self, other: object) -> bool:
+        same = isinstance(other, _Key) and self.text == other.text
+        return same and self.settings == getattr(other, "settings", None)
+
+    def __hash__(self) -> int:
+        return hash((self.text, self.settings))
+
+
+@lru_cache(maxsize=16)
+def _runtime(key: _Key) -> RolloutRuntime:
+    return RolloutRuntime(key.robot, key.settings)
+
+
+def rollout_runtime_of(robot: Robot, settings: RolloutSettings) -> RolloutRuntime:
+    """The compiled rollouts of a robot, built at their first use.
+
+    Raises:
+        CompilerError: there is no C compiler, or it failed.
+    """
+    return _runtime(_Key(json.dumps(robot.to_dict()), settings, robot))
+
+
+class RolloutSearch(Search):
+    """One search by rollouts; use it as a context manager.
+
+    Args:
+        runtime: the compiled rollouts.
+        settings: their numbers.
+        request: start, goals, limits and obstacles.
+        keep: arrays that ``request`` points into; kept alive here.
+    """
+
+    def __init__(
+        self, runtime: Runtime, settings: RolloutSettings, request: Request, keep: Any
+    ) -> None:
+        coin = settings.coin if isinstance(settings, PaperRnn) else None
+        super().__init__(runtime, RandomRnn(coin=coin), request, keep)
+        struct = rollout_struct(runtime.robot, settings)
+        create = runtime.function(
+            "rollouts_create", ct.c_void_p, ct.c_void_p, ct.POINTER(RolloutStruct)
+        )
+        self._rollouts = create(self._handle, ct.byref(struct))
+        if not self._rollouts:
+            super().__exit__()
+            raise RrnnError("planner: out of memory; give fewer obstacles")
+
+    def __exit__(self, *_: object) -> None:
+        self._runtime.function("rollouts_free", None, ct.c_void_p)(self._rollouts)
+        self._rollouts = None
+        super().__exit__()
+
+    def _rolled(
+        self, name: str, result: Any, types: tuple[Any, ...], *args: Any
+    ) -> Any:
+        function = self._runtime.function(name, result, ct.c_void_p, *types)
+        return function(self._rollouts, *args)
+
+    def run(self, budget: int, slice_s: float) -> str:
+        """Explore on; "paused" after ``slice_s`` seconds."""
+        types = (ct.c_int64, ct.c_double)
+        code = int(self._rolled("rollouts_run", ct.c_int32, types, budget, slice_s))
+        if code not in STATUS:
+            raise RrnnError("planner: out of memory; lower the exploration budget")
+        return STATUS[code]
+
+    def velocity(self, q: Array, u: Array, target: Array) -> tuple[Array, float]:
+        """Joint velocity after one step of the scheme, and the task error.
+
+        Args:
+            q: posture, (nv,), rad or m.
+            u: joint velocity before, (nv,), rad/s or m/s.
+            target: position, (3,), m.
+        """
+        q, target = (np.ascontiguousarray(v, dtype=np.float64) for v in (q, target))
+        after = np.array(u, dtype=np.float64)
+        pointers = (q.ctypes.data, after.ctypes.data, target.ctypes.data)
+        types = (ct.c_void_p,) * 3
+        error = self._rolled("rollouts_step", ct.c_double, types, *pointers)
+        return after, float(error)
+
+    def nodes(self) -> tuple[Array, NDArray[np.int64]]:
+        """Postures (N, nv) and parents (N,) of the tree T_s."""
+        total = int(self._rolled("rollouts_count", ct.c_int32, ()))
+        postures, parents = np.zeros((total, self._nv)), np.zeros(total, np.int64)
+        types = (ct.c_int32, ct.c_void_p)
+        for i in range(total):
+            pointer = postures[i].ctypes.data
+            parents[i] = self._rolled("rollouts_node", ct.c_int32, types, i, pointer)
+        return postures, parents
+
+
+def point_goals(goals: OpenGoals, planner: str) -> OpenGoals:
+    """The goals that a position scheme can be given.
+
+    Raises:
+        ProblemError: there is none; the printed schemes know neither postures
+            nor orientations.
+    """
+    tips = tuple(tip for tip in goals.tips if tip.quat_xyzw is None)
+    if not tips:
+        message = f"'{planner}' goes to positions; give one without quat_xyzw"
+        raise ProblemError("goal", message)
+    return OpenGoals((), tips)
+
+
+def thinned(search: Search, path: Array, chord: float = CHORD) -> Array:
+    """The path with fewer waypoints; every new chord is proved free.
+
+    Args:
+        search: proves segments.
+        path: waypoints, (N, nv), every segment proved.
+        chord: longest new segment, rad.
+    """
+    ways = np.linalg.norm(np.diff(path, axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(ways)])
+    kept, at, last = [0], 0, len(path) - 1
+    while at < last:
+        end = int(np.searchsorted(along, along[at] + chord, side="right")) - 1
+        end = min(max(end, at + 1), last)
+        while end > at + 1 and not search.segment_free(path[at], path[end]):
+            end = (at + end + 1) // 2 if end > at + 2 else at + 1
+        kept.append(end)
+        at = end
+    return path[kept]

@@ -1,0 +1,125 @@
+/* Rollouts of the printed network in time: data, limits (10), sets (12), (17). */
+
+#define CONTACT_MAX 16
+#define BAND_MAX 128
+
+typedef enum {
+    FIRST_ORDER = 0,
+    SECOND_ORDER = 1,
+    VELOCITY_SCHEME = 2,
+    ACCELERATION_SCHEME = 3
+} law_t;
+
+typedef struct {
+    double epsilon;       /* s */
+    double step;          /* s */
+    double safe;          /* m, clearance at which contacts count */
+    double share;         /* of the goal's tolerance */
+    double random_tolerance; /* m */
+    double stall_ratio;
+    double radius;        /* rad, largest norm of a step */
+    double slack;         /* m */
+    double gain, speed, rate, kappa_o; /* of the comparison schemes */
+    double center[3];     /* m, ball of the task-space draw */
+    double ball;          /* m, its radius */
+    int32_t law;
+    int32_t by_index;     /* reading of (12) */
+    int32_t by_posture;   /* region of the random points */
+    int32_t feed;         /* 0: contact, 1: band, 2: failure */
+    int32_t stall_window; /* steps */
+    int32_t max_steps;
+    int32_t sweeps;
+    int32_t contacts;
+} rollout_settings_t;
+
+/* Approach that the sign rows allowed when a contact came near. */
+typedef struct {
+    int32_t sphere, other, seen;
+    double allowed[3];    /* m/s */
+} band_t;
+
+typedef struct {
+    double q[NV], u[NV];  /* rad, rad/s */
+} state_t;
+
+typedef struct {
+    state_t state;
+    double tip[3], target[3];
+    int32_t parent, tip_goal; /* -1: a random target */
+} rolled_t;
+
+typedef struct {
+    int32_t reached, contact, band;
+} outcome_t;
+
+typedef struct {
+    planner_t *base;      /* world, generator, counts and path */
+    rollout_settings_t set;
+    rolled_t *nodes;
+    int32_t count, room;
+    band_t bands[BAND_MAX];
+    int32_t band_count;
+    int32_t turns;
+} rollouts_t;
+
+/* Pairs near enough for a step or for a contact row; 0: too many.  The margin
+ * is widened so that obstacles within `safe` are listed, and given back. */
+static int near_contacts(rollouts_t *r, const pose_t *pose)
+{
+    world_t *world = &r->base->world;
+    world->margin += r->set.safe;
+    const int complete = world_near(world, pose, r->set.radius);
+    world->margin -= r->set.safe;
+    for (int32_t p = 0; p < world->near_count; p++) {
+        if (world->near[p].group < 0) {
+            world->near[p].gap += r->set.safe;
+        }
+    }
+    return complete;
+}
+
+/* Cuts the box by the sign sets (12) of every obstacle within `safe`; returns
+ * whether there is one. */
+static int32_t sign_sets(rollouts_t *r, const pose_t *pose, double *lower,
+                         double *upper)
+{
+    world_t *world = &r->base->world;
+    int32_t found = 0;
+    for (int32_t p = 0; p < world->near_count; p++) {
+        near_t *pair = &world->near[p];
+        double escape[NV] = {0}, least[NV], most[NV];
+        if (pair->group >= 0 || pair->gap > r->set.safe) {
+            continue;
+        }
+        if (r->set.by_index) {
+            memcpy(escape, pair->n, (NV < 3 ? NV : 3) * sizeof(double));
+        } else {
+            memcpy(escape, near_row(pair, pose), sizeof escape);
+        }
+        k_sign_set(escape, lower, upper, least, most);
+        memcpy(lower, least, sizeof least);
+        memcpy(upper, most, sizeof most);
+        found = 1;
+    }
+    return found;
+}
+
+/* Velocity after one step of (17), or of its reduced law (18). */
+static int32_t network_step(rollouts_t *r, const pose_t *pose, const double *target,
+                            state_t *state, double *error)
+{
+    const rollout_settings_t *set = &r->set;
+    double lower[NV], upper[NV], pull[NV], drive_to[NV], next[NV];
+    k_limits(state->q, lower, upper);
+    const int32_t band = sign_sets(r, pose, lower, upper);
+    k_pull(pose->axes, pose->origins, pose->tip_position, target, &set->epsilon, pull,
+           error);
+    k_clamp(pull, lower, upper, drive_to);
+    if (set->law == FIRST_ORDER) {
+        memcpy(state->u, drive_to, sizeof drive_to);
+    } else {
+        k_relax(state->u, drive_to, &set->epsilon, &set->step, next);
+        memcpy(state->u, next, sizeof next);
+    }
+    return band;
+}
