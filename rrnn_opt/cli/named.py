@@ -40,6 +40,29 @@ def scheme(name: str) -> Any:
     return getattr(formulations, name)
 
 
+def network(name: str) -> Any:
+    """A network rule of ``rrnn_opt.networks`` by name, with its own settings.
+
+    Raises:
+        UsageError: there is none of that name.
+    """
+    import inspect
+
+    from rrnn_opt import networks
+
+    rules = {k: v for k, v in vars(networks).items() if k in networks.__all__}
+    known = [
+        k
+        for k, v in rules.items()
+        if inspect.isclass(v)
+        and issubclass(v, networks.Network)
+        and v is not networks.Network
+    ]
+    if name not in known:
+        raise UsageError(unknown("network", name, sorted(known)))
+    return rules[name]()
+
+
 def unknown(kind: str, name: str, known: Iterable[str]) -> str:
     """One sentence about a name that is not known, with the nearest that is."""
     names = list(known)

@@ -31,6 +31,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--seed", type=seed, help="of the noise, in place of the task's"
     )
+    parser.add_argument(
+        "--network",
+        metavar="NAME",
+        help="that settles the scheme (default: PrimalDual with the task's epsilon)",
+    )
     parser.add_argument("--out", metavar="DIR", help="write CSV, picture and metrics")
 
 
@@ -38,6 +43,7 @@ def run(args: argparse.Namespace, out: Output) -> int:
     """0 when the limits were kept, else 1."""
     target = folder(args.out) if args.out is not None else None
     scheme, robot = named.scheme(args.formulation), named.robot(args.robot)
+    network = named.network(args.network) if args.network else None
     from rrnn_opt.report import table
     from rrnn_opt.simulation import simulate
     from rrnn_opt.simulation.task_file import load_task
@@ -48,7 +54,7 @@ def run(args: argparse.Namespace, out: Output) -> int:
         noise = replace(noise, sigma=args.noise)
     if args.seed is not None:
         noise = replace(noise, seed=args.seed)
-    result = simulate(scheme, robot, replace(task, noise=noise))
+    result = simulate(scheme, robot, replace(task, noise=noise), network=network)
     paths = _write(result, target) if target is not None else []
     document = result.to_dict(paths)
     out.document(document)

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.robot import Kinematics, Robot
-from rrnn_opt.simulation.machine import Record
 from rrnn_opt.simulation.obstacles import least_clearance
+from rrnn_opt.simulation.record import Record
 from rrnn_opt.simulation.task import Array, Task
 
 ROUNDING = 1e-9

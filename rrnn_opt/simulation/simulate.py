@@ -12,8 +12,9 @@ from rrnn_opt.dynamics import DiscreteDynamics
 from rrnn_opt.errors import ProblemError, RrnnError
 from rrnn_opt.networks.step_size import settling_step
 from rrnn_opt.robot import Robot
-from rrnn_opt.simulation.machine import Machine, Pace, Record, Told
+from rrnn_opt.simulation.machine import Machine
 from rrnn_opt.simulation.prepare import Network, Scheme, prepared
+from rrnn_opt.simulation.record import Pace, Record, Told
 from rrnn_opt.simulation.reference import reference
 from rrnn_opt.simulation.result import SimulationResult
 from rrnn_opt.simulation.task import Array, Task
@@ -124,14 +125,26 @@ def _told(task: Task, values: tuple[Array, Array, Array], nv: int, level: str) -
 
 
 def _run(loop: Machine, pace: Pace, q0: Array, told: Told) -> tuple[Record, float]:
-    """Run; under the reduced law a step that diverges is shortened."""
+    """Run; under the reduced law a step that is too long is shortened.
+
+    It is when the run diverges, or when the network does not come to rest
+    (contacts that act make it stiffer than it was at the start) and does so
+    more often with a shorter step.
+    """
+    best: tuple[Record, float] | None = None
     for _ in range(_ATTEMPTS):
         record = loop.run(pace, q0, told)
         if np.isfinite(record.command).all() and np.isfinite(record.q).all():
-            return record, pace.h
+            if best is not None and best[0].unsettled <= record.unsettled:
+                return best
+            best = record, pace.h
+            if record.unsettled == 0:
+                return best
         if pace.tolerance < 0.0:
             break
         pace = replace(pace, h=pace.h * _SHRINK)
+    if best is not None:
+        return best
     raise RrnnError(
         f"{loop.dynamics.name}: the run diverges with network steps of "
         f"{pace.h:g} s; take a smaller control.dt or more control.steps"

@@ -83,6 +83,29 @@ def test_simulate_writes_curve_picture_and_metrics(capfd, tmp_path):
     assert quiet["rms_error_m"] < metrics["rms_error_m"]
 
 
+def test_simulate_takes_any_network_and_obstacles(capfd, tmp_path):
+    obstacle = """
+[scene]
+contacts = [42]
+[[scene.obstacles]]
+type = "sphere"
+radius = 0.05
+position = [0.9, 0.4, 0.9]
+"""
+    (tmp_path / "t.toml").write_text(TASK.replace("kappa = 10.0", "") + obstacle)
+    words = ["simulate", "method1", "--robot", "pa10", "--task", "t.toml", "--json"]
+    assert main(words) == 0
+    usual = document(capfd)
+    assert usual["scheme"] == "primal_dual_method1"
+    assert usual["least_clearance_m"] > 0.0
+    assert main([*words, "--network", "DualNetwork"]) == 0
+    dual = document(capfd)
+    assert dual["scheme"] == "dual_network_method1"
+    assert dual["rms_error_m"] == pytest.approx(usual["rms_error_m"], rel=1e-4)
+    assert main([*words, "--network", "DualNetwrk"]) == 2
+    assert "did you mean 'DualNetwork'" in document(capfd)["error"]["message"]
+
+
 def test_generate_prints_the_manifest_of_what_it_wrote(capfd, tmp_path):
     words = ["generate", "position_feedback", "--robot", "planar3", "--out", "g"]
     assert main([*words, "--json", "--prefix", "mine"]) == 0
