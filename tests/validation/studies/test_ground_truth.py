@@ -1,0 +1,169 @@
+import csv
+import json
+
+import pytest
+
+from rrnn_opt.errors import RrnnError
+from rrnn_opt.study import Case, generator, run
+from rrnn_opt.validation.studies.catalogue import network_rules, schemes
+from rrnn_opt.validation.studies.documents import pairs
+from rrnn_opt.validation.studies.ground_truth import SOLVERS, GroundTruth, main
+from rrnn_opt.validation.studies.infeasible import Infeasible
+from rrnn_opt.validation.studies.ledger import Ledger
+
+SLICE = ("minimum_velocity", "clearance_rows", "gradient_projection")
+NETWORKS = ("PrimalDual", "LviPdnn", "Hildreth", "Znn")
+
+
+def measured(study):
+    return [study.measure(case, generator(case)) for case in study]
+
+
+def test_a_slice_agrees_with_the_solvers():
+    """All networks of the slice are right, and with what they were asked for."""
+    table = pairs(measured(GroundTruth(("planar3",), 15, 15, SLICE, NETWORKS)))
+    networks = [row for row in table if row["kind"] == "network"]
+    assert {row["who"] for row in networks} == set(NETWORKS)
+    assert len(networks) == 3 + 3 + 3 + 1
+    for row in networks:
+        assert row["n"] == row["right"] == 15
+        assert row["truth_primal"] <= 1e-6
+        assert row["truth_dual"] <= 1e-6
+        assert row["well"] >= 10
+    daqp = [row for row in table if row["who"] == "daqp"]
+    assert all(row["right"] == row["n"] for row in daqp)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("robot", ["pa10", "panda", "raven2", "planar3"])
+def test_every_pair_on_every_robot(robot):
+    study = GroundTruth((robot,), 40, 40)
+    table = pairs(measured(study))
+    networks = [row for row in table if row["kind"] == "network"]
+    assert {row["scheme"] for row in networks} == {s.name for s in schemes()}
+    asked = sum(row["n"] for row in networks)
+    wrong = [(r["who"], r["scheme"], r["examples"]) for r in networks if r["wrong"]]
+    assert wrong == []
+    assert sum(row["right"] for row in networks) >= 0.99 * asked
+    assert {row["who"] for row in networks} == set(network_rules())
+
+
+def test_the_least_shares_of_active_points_hold():
+    study = GroundTruth(("pa10",), 40, 40, ("method1", "task_augmentation"), ("Znn",))
+    for row in measured(study):
+        points = row["points"]
+        assert points["bound"] >= points["n"] / 3
+        assert points["contact"] >= points["n"] / 10
+
+
+def test_a_wrong_answer_is_seen(monkeypatch):
+    """A network whose answer is moved is counted wrong, its neighbours are not."""
+    from rrnn_opt.validation.studies import block
+
+    honest = block.settle_at
+
+    def moved(network, *args, **kwargs):
+        x, info = honest(network, *args, **kwargs)
+        shift = 1e-5 if network.name.startswith("lvi") else 0.0
+        return None if x is None else x + shift, info
+
+    monkeypatch.setattr(block, "settle_at", moved)
+    study = GroundTruth(
+        ("planar3",), 6, 6, ("minimum_velocity",), ("LviPdnn", "PrimalDual")
+    )
+    by_name = {row["who"]: row for row in pairs(measured(study))}
+    assert by_name["LviPdnn"]["right"] == 0
+    assert by_name["LviPdnn"]["apart"]["daqp"] >= 4
+    assert by_name["PrimalDual"]["right"] == 6
+    assert by_name["daqp"]["right"] == 6
+
+
+def test_a_network_that_gives_no_point_is_counted(monkeypatch):
+    from rrnn_opt.solving import Status
+    from rrnn_opt.validation.studies import block
+
+    class Info:
+        status = Status.MAX_ITER
+
+    monkeypatch.setattr(block, "settle_at", lambda *args, **kwargs: (None, Info))
+    study = GroundTruth(("planar3",), 3, 3, ("position_feedback",), ("PrimalDual",))
+    by_name = {row["who"]: row for row in pairs(measured(study))}
+    assert by_name["PrimalDual"]["answered"] == 0
+    assert by_name["PrimalDual"]["statuses"] == {"max_iter": 3}
+    assert by_name["PrimalDual"]["examples"][0] == "planar3/position_feedback/0+0"
+
+
+def test_infeasible_programmes_are_known_as_such_whatever_a_solver_hands_out():
+    (row,) = measured(Infeasible(("planar3",), 5))
+    said = row["infeasible"]
+    assert said["osqp"]["x junk"] == 5
+    for name in (*SOLVERS, "PrimalDual", "LviPdnn", "Hildreth"):
+        assert said[name]["not found"] == 5
+        assert said[name]["judged primal_infeasible"] == 5
+    for name in ("PrimalDual", "LviPdnn", "Hildreth"):
+        assert said[name]["x none"] == 5
+
+
+def test_the_command_writes_tables_and_takes_up_where_it_stopped(tmp_path, capsys):
+    words = ["--points", "4", "--block", "2", "--infeasible", "1", "--robots"]
+    words += ["planar3", "--networks", "PrimalDual", "--out", str(tmp_path)]
+    first = [*words, "--schemes", "position_feedback"]
+    assert main(first) == 0
+    lines = (tmp_path / "rows.jsonl").read_text().splitlines()
+    assert [json.loads(line)["key"] for line in lines] == [
+        "infeasible/planar3",
+        "planar3/position_feedback/0",
+        "planar3/position_feedback/2",
+    ]
+    cut = "\n".join([*lines[:2], lines[2][:40]])
+    (tmp_path / "rows.jsonl").write_text(cut + "\n")
+    capsys.readouterr()
+    assert main(first) == 0
+    told = capsys.readouterr()
+    assert told.err.splitlines() == ["planar3/position_feedback/2"]
+    assert told.out.strip() == str(tmp_path / "ground_truth.md")
+    page = (tmp_path / "ground_truth.md").read_text()
+    assert "| PrimalDual | planar3 | 4 | 100.00 % |" in page
+    assert "junk 1" in page
+    with (tmp_path / "ground_truth.csv").open() as file:
+        table = list(csv.DictReader(file))
+    assert [row["who"] for row in table] == [*SOLVERS, "PrimalDual"]
+    data = json.loads((tmp_path / "ground_truth.json").read_text())
+    assert len(data["pairs"]) == 5
+
+
+def test_unknown_names_are_said(tmp_path, capsys):
+    out = ["--out", str(tmp_path)]
+    assert main([*out, "--schemes", "nothing"]) == 2
+    assert "no scheme 'nothing'" in capsys.readouterr().err
+    with pytest.raises(RrnnError, match="no network 'None'"):
+        GroundTruth(networks=("None",))
+
+
+class Half:
+    """A study whose second case fails."""
+
+    name = "half"
+
+    def __init__(self, count):
+        self.count = count
+
+    def __iter__(self):
+        return (Case(key, {"count": self.count}) for key in "ab")
+
+    def measure(self, case, rng):
+        if case.key == "b":
+            raise RrnnError("no")
+        return {"n": self.count}
+
+
+def test_a_ledger_keeps_what_is_done_for_the_same_case_and_seed(tmp_path):
+    path = tmp_path / "rows.jsonl"
+    assert [r.key for r in Ledger(path).run(Half(1))] == ["a", "b"]
+    again = Ledger(path)
+    assert list(again.run(Half(1))) == []
+    assert again.metrics == [{"n": 1}]
+    assert again.errors == ["b: RrnnError: no"]
+    assert len(list(Ledger(path).run(Half(2)))) == 2
+    assert len(list(Ledger(path, seed=1).run(Half(1)))) == 2
+    assert len(run(Half(1))) == 2

@@ -1,0 +1,1 @@
+"""Studies of our own promises: seeded, run in slices, written where one asks."""
