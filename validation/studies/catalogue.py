@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -80,15 +80,18 @@ def network_rules(*, whitened: bool = False) -> dict[str, Network]:
     found: dict[str, Network] = {}
     for name in networks.__all__:
         rule: Any = getattr(networks, name)
-        if (
-            inspect.isclass(rule)
-            and "__call__" in dir(rule)
-            and not inspect.isabstract(rule)
-        ):
-            found[name] = cast(Network, rule())
-            if whitened and "whiten" in inspect.signature(rule).parameters:
-                found[f"{name}/whiten"] = cast(Network, rule(whiten=True))
+        if not _is_rule(rule):
+            continue
+        found[name] = rule()
+        if whitened and "whiten" in inspect.signature(rule).parameters:
+            found[f"{name}/whiten"] = rule(whiten=True)
     return found
+
+
+def _is_rule(member: Any) -> bool:
+    """Whether it is a concrete class whose instances take a formulation."""
+    concrete = inspect.isclass(member) and not inspect.isabstract(member)
+    return concrete and "__call__" in dir(member)
 
 
 def networks_of(
