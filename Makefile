@@ -6,7 +6,7 @@ JOBS ?= 2
 VENV := .venv
 PY := $(VENV)/bin/python
 PIP := $(PY) -m pip --disable-pip-version-check install --quiet
-RRNN := $(PY) -m rrnn_opt.cli.main
+RRNN := $(PY) -m rrnn_opt.cli.start
 
 .DELETE_ON_ERROR:
 .PHONY: help demo test check dev bench soak clean

@@ -8,6 +8,8 @@ run: ``rrnn --help`` loads no numerical library.
 from __future__ import annotations
 
 import argparse
+import contextlib
+import io
 import sys
 from collections.abc import Sequence
 from typing import Any, NoReturn
@@ -24,6 +26,7 @@ from rrnn_opt.cli import (
     view,
 )
 from rrnn_opt.cli.folders import os_sentence
+from rrnn_opt.cli.interrupt import Interrupt, noticed
 from rrnn_opt.cli.output import Output, UsageError, opened
 from rrnn_opt.errors import RrnnError
 
@@ -42,7 +45,10 @@ FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser that raises instead of leaving."""
+    """A parser that raises instead of leaving and wants options in full."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__(allow_abbrev=False, **options)
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{message} (see {self.prog} --help)")
@@ -80,32 +86,46 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     words = list(sys.argv[1:] if argv is None else argv)
     name = next((word for word in words if word in COMMANDS), "")
-    with opened("--json" in words) as out:
-        return _guarded(words, name, out)
+    with opened("--json" in words) as out, noticed() as interrupt:
+        code = _guarded(words, name, out, interrupt)
+        return INTERRUPTED if interrupt.seen else code
 
 
-def _guarded(words: list[str], name: str, out: Output) -> int:
-    debug = "--debug" in words
+def _guarded(words: list[str], name: str, out: Output, interrupt: Interrupt) -> int:
     try:
-        args = parser().parse_args(words)
-        return int(COMMANDS[args.command].run(args, out))
+        return _run(words, out)
     except KeyboardInterrupt:
         return _failed(out, name, "interrupted", INTERRUPTED)
-    except RrnnError as error:
-        if debug:
+    except Exception as error:
+        if interrupt.seen:
+            return _failed(out, name, "interrupted", INTERRUPTED)
+        if "--debug" in words:
             raise
+        return _explained(out, name, error)
+
+
+def _run(words: list[str], out: Output) -> int:
+    """Run the command; what ``--help`` and ``--version`` show is a result too."""
+    shown = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(shown):
+            args = parser().parse_args(words)
+    except SystemExit:
+        out.document({"text": shown.getvalue()})
+        out.say(shown.getvalue().rstrip())
+        return 0
+    return int(COMMANDS[args.command].run(args, out))
+
+
+def _explained(out: Output, name: str, error: Exception) -> int:
+    """One sentence on an error, and whose fault it is."""
+    if isinstance(error, RrnnError):
         return _failed(out, name, str(error), BAD_INPUT)
-    except OSError as error:
-        if debug:
-            raise
+    if isinstance(error, OSError):
         code = FAILED if out.done else BAD_INPUT
         return _failed(out, name, os_sentence(error), code)
-    except Exception as error:
-        if debug:
-            raise
-        hint = "this is a fault of ours: run it again with --debug to see where"
-        text = f"{type(error).__name__}: {error}; {hint}"
-        return _failed(out, "", text, FAILED)
+    hint = "this is a fault of ours: run it again with --debug to see where"
+    return _failed(out, "", f"{type(error).__name__}: {error}; {hint}", FAILED)
 
 
 def _failed(out: Output, name: str, text: str, code: int) -> int:

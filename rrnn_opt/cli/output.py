@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterator
 from typing import Any
 
+from rrnn_opt.cli.interrupt import held
 from rrnn_opt.errors import RrnnError
 
 
@@ -50,7 +51,7 @@ class Output:
             print(text, file=sys.stderr, flush=True)
 
     def document(self, document: dict[str, Any]) -> None:
-        """The result as JSON; nothing happens without ``--json``.
+        """The result as JSON, whole; nothing happens without ``--json``.
 
         Raises:
             ValueError: it holds NaN or an infinity.
@@ -59,12 +60,13 @@ class Output:
         if not self.as_json or self.done:
             return
         data = (json.dumps(document, allow_nan=False) + "\n").encode()
-        self.done = True
-        try:
-            while data:
-                data = data[os.write(self._descriptor, data) :]
-        except BrokenPipeError:
-            silence(self._descriptor)
+        with held():
+            self.done = True
+            try:
+                while data:
+                    data = data[os.write(self._descriptor, data) :]
+            except BrokenPipeError:
+                silence(self._descriptor)
 
 
 def silence(descriptor: int) -> None:

@@ -32,10 +32,20 @@ def test_version(rrnn):
     assert shown.stdout.startswith("rrnn_opt ")
 
 
+@pytest.mark.parametrize("words", [("--help",), ("--version",), ("plan", "--help")])
+def test_help_is_a_document_too(words, capfd):
+    assert main([*words, "--json"]) == 0
+    shown = json.loads(capfd.readouterr().out)["text"]
+    assert main([*words]) == 0
+    assert capfd.readouterr().out == shown
+
+
 @pytest.mark.parametrize(
     "words",
     [
         ("nonsense",),
+        ("robots", "--jso"),
+        ("verify", "--al"),
         ("check", "missing.json"),
         ("view", "missing.json"),
         ("robots", "pa11"),

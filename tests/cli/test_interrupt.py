@@ -1,0 +1,117 @@
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+from rrnn_opt.cli.interrupt import held, noticed
+from rrnn_opt.cli.main import COMMANDS, main
+from rrnn_opt.cli.output import Output
+
+
+def press() -> None:
+    signal.raise_signal(signal.SIGINT)
+
+
+def test_an_interrupt_that_a_library_swallows_still_decides(capfd, monkeypatch):
+    def deaf(_, out):
+        try:
+            press()
+        except KeyboardInterrupt:
+            out.document({"went": "on"})
+        return 0
+
+    before = signal.getsignal(signal.SIGINT)
+    monkeypatch.setattr(COMMANDS["robots"], "run", deaf)
+    assert main(["robots", "--json"]) == 130
+    assert json.loads(capfd.readouterr().out) == {"went": "on"}
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_an_interrupt_that_becomes_another_error_is_no_fault_of_ours(
+    capfd, monkeypatch
+):
+    def disguised(*_):
+        try:
+            press()
+        except KeyboardInterrupt:
+            raise RuntimeError("Error calling __set_name__") from None
+
+    monkeypatch.setattr(COMMANDS["robots"], "run", disguised)
+    assert main(["robots", "--json"]) == 130
+    shown, said = capfd.readouterr()
+    assert json.loads(shown)["error"]["kind"] == "interrupted"
+    assert said == "rrnn: interrupted\n"
+
+
+def test_an_interrupt_waits_for_the_document(capfd):
+    reader, writer = os.pipe()
+    received: list[bytes] = []
+
+    def read() -> None:
+        time.sleep(0.4)
+        while chunk := os.read(reader, 1 << 16):
+            received.append(chunk)
+
+    document = {"long": list(range(200_000))}  # far beyond what a pipe holds
+    thread = threading.Thread(target=read)
+    thread.start()
+    timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        Output(True, writer).document(document)
+    os.close(writer)
+    thread.join()
+    timer.join()
+    os.close(reader)
+    assert json.loads(b"".join(received)) == document
+
+
+def test_a_second_interrupt_does_not_wait():
+    reached: list[int] = []
+
+    def twice() -> None:
+        with held():
+            press()
+            reached.append(1)
+            press()
+            reached.append(2)
+
+    with pytest.raises(KeyboardInterrupt):
+        twice()
+    assert reached == [1]
+
+
+def test_nothing_is_noticed_where_nothing_happened():
+    with noticed() as interrupt, held():
+        pass
+    assert not interrupt.seen
+
+
+def test_an_interrupt_while_the_program_loads_leaves_no_traceback():
+    code = (
+        "import sys, time\n"
+        "class Slow:\n"
+        "    def find_spec(self, name, *_):\n"
+        "        if name == 'argparse':\n"
+        "            print('loading', flush=True); time.sleep(30)\n"
+        "from rrnn_opt.cli import start\n"
+        "sys.modules.pop('argparse', None); sys.meta_path.insert(0, Slow())\n"
+        "sys.exit(start.main())\n"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", code],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None
+    process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert said == "rrnn: interrupted\n"
