@@ -19,6 +19,7 @@ from rrnn_opt.formulations.model36 import model36
 from rrnn_opt.formulations.model43 import model43
 from rrnn_opt.formulations.position_feedback import position_feedback
 from rrnn_opt.formulations.prioritised_tasks import prioritised_tasks
+from rrnn_opt.formulations.quiet_posture import quiet_posture
 from rrnn_opt.formulations.repetitive_motion import repetitive_motion
 from rrnn_opt.formulations.sign_rows import sign_rows
 from rrnn_opt.formulations.slack_task import slack_task
@@ -45,6 +46,7 @@ __all__ = [
     "model43",
     "position_feedback",
     "prioritised_tasks",
+    "quiet_posture",
     "repetitive_motion",
     "sign_rows",
     "slack_task",
