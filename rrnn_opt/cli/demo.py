@@ -37,8 +37,8 @@ def run(args: argparse.Namespace, out: Output) -> int:
         out.say(f"{word}  {check.name}: {check.value} (wanted {check.wanted})")
     for path in report.files:
         out.say(f"wrote {path}")
-    out.say(f"\n{report.seconds:.1f} s.  Next:")
-    for line in following(str(target)):
+    out.say(f"\n{report.seconds:.1f} s." + ("  Next:" if report.files else ""))
+    for line in following(str(target)) if report.files else ():
         out.say(f"  {line}")
     return 0 if report.passed else 1
 

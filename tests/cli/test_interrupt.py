@@ -92,7 +92,8 @@ def test_nothing_is_noticed_where_nothing_happened():
     assert not interrupt.seen
 
 
-def test_an_interrupt_while_the_program_loads_leaves_no_traceback():
+@pytest.mark.parametrize("options", [[], ["--json"]])
+def test_an_interrupt_while_the_program_loads_leaves_no_traceback(options):
     code = (
         "import sys, time\n"
         "class Slow:\n"
@@ -104,7 +105,7 @@ def test_an_interrupt_while_the_program_loads_leaves_no_traceback():
         "sys.exit(start.main())\n"
     )
     process = subprocess.Popen(
-        [sys.executable, "-c", code],
+        [sys.executable, "-c", code, *options],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -112,6 +113,7 @@ def test_an_interrupt_while_the_program_loads_leaves_no_traceback():
     assert process.stdout is not None
     process.stdout.readline()
     process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=30)
+    shown, said = process.communicate(timeout=30)
     assert process.returncode == 130
+    assert not options or json.loads(shown)["error"]["kind"] == "interrupted"
     assert said == "rrnn: interrupted\n"
