@@ -26,8 +26,8 @@ def own_operations(rule: Network, form: Formulation) -> frozenset[str]:
         form: a formulation that it does not refuse.
 
     Returns:
-        Names of tape operations of law, output and multipliers; a division by
-        a constant number is called "scale".
+        Names of tape operations of law, output and multipliers; see
+        ``function_operations``.
     """
     return graph_operations(rule(opaque(form)))
 
@@ -43,13 +43,26 @@ def graph_operations(dynamics: Dynamics) -> frozenset[str]:
     names = [s.name for s in symbols]
     outputs = [f"part{k}" for k in range(len(parts))]
     fn = ca.Function("graph", [s.sx for s in symbols], parts, names, outputs)
+    return function_operations(fn)
+
+
+def function_operations(fn: ca.Function) -> frozenset[str]:
+    """Names of the tape operations of a function.
+
+    A division by a constant number is called "scale", and "inv" (one over
+    something) a "div".
+
+    Args:
+        fn: any.
+    """
     tape = Tape.of(fn)
     constants = {s.out for s in tape.instructions if s.op == "const"}
     found = {
         "scale" if s.op == "div" and s.args[1] in constants else s.op
         for s in tape.instructions
     }
-    return frozenset(found) - _PLUMBING
+    named = {"div" if op == "inv" else op for op in found}
+    return frozenset(named) - _PLUMBING
 
 
 def opaque(form: Formulation) -> Formulation:
