@@ -1,7 +1,9 @@
 """Freedom from collision for all times, by subdivision in time.
 
 Every (box, pair) is either proved by a bound over the whole box, refuted by
-the box's middle, or handed to both halves of the box.  Nothing is sampled.
+the box's middle, or handed to both halves of the box.  Nothing is sampled.  A
+bound proves only what it exceeds by the target's slack (:mod:`rounding`), and a
+middle refutes only by as much; NaN and infinity prove nothing.
 """
 
 from __future__ import annotations
@@ -12,12 +14,14 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.check.boxes import Boxes, Poses, joint_pieces, poses
+from rrnn_opt.check import hermite
+from rrnn_opt.check.boxes import Poses, joint_pieces, poses
 from rrnn_opt.check.hermite import Pieces
 from rrnn_opt.check.model import Model
 from rrnn_opt.check.reading import Array
+from rrnn_opt.check.rounding import Rounding
 from rrnn_opt.check.targets import Target
-from rrnn_opt.check.worklist import Batch, Ledger, Work, divide, whole
+from rrnn_opt.check.worklist import Batch, Leaf, Ledger, Work, divide, whole
 
 PROVED, REFUTED, UNKNOWN = "PROVED", "REFUTED", "UNKNOWN"
 CHECKS_A_BOX = 100
@@ -32,14 +36,14 @@ class Effort:
 
     Attributes:
         max_boxes: time boxes that may be looked at.
-        slack: absorbs rounding, m; a proof needs this much more than asked.
         resolution: the clearance bound is refined to within this of the truth,
             or a tenth of it, m.
+        keep_leaves: report what was proved where.
     """
 
     max_boxes: int
-    slack: float
     resolution: float = 1e-3
+    keep_leaves: bool = False
 
 
 @dataclass(frozen=True)
@@ -53,6 +57,7 @@ class Outcome:
         witness: {"time", "q", "pair", "distance"} of a collision, or None.
         checks: number of (box, pair) looked at.
         boxes: number of boxes.
+        leaves: what was proved where, None unless asked for.
     """
 
     verdict: str
@@ -60,6 +65,7 @@ class Outcome:
     witness: dict[str, Any] | None
     checks: int
     boxes: int
+    leaves: list[Leaf] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,42 +75,65 @@ class Motion:
     Attributes:
         t: (n,), s.
         q: (n, nv).
-        pieces: cubics of the coordinates.
+        qd: (n, nv).
+        pieces: cubics of the coordinates over time.
+        unit: the same over each piece's time from 0 to 1.
     """
 
     t: Array
     q: Array
+    qd: Array
     pieces: Pieces
+    unit: Pieces
+
+    @staticmethod
+    def of(t: Array, q: Array, qd: Array) -> Motion:
+        """The motion of these rows."""
+        unit = hermite.unit_pieces(t, q, qd)
+        return Motion(t, q, qd, hermite.pieces(t, q, qd), unit)
 
 
 def prove_free(
-    model: Model, targets: Sequence[Target], motion: Motion, effort: Effort
+    model: Model,
+    targets: Sequence[Target],
+    errors: Rounding,
+    motion: Motion,
+    effort: Effort,
 ) -> Outcome:
     """Settle whether all pairs keep apart during the whole motion.
 
     Args:
         model: the robot.
         targets: what must keep apart.
+        errors: rounding of the robot's own numbers.
         motion: rows and cubics.
         effort: limits and tolerances.
     """
-    ledger, joint = Ledger(), joint_pieces(model, motion.pieces)
+    ledger, joint = Ledger(), joint_pieces(model, motion.unit)
+    ledger.leaves = [] if effort.keep_leaves else None
     live = [target for target in targets if target.count]
-    stack = whole(live, len(motion.pieces.h), motion.pieces)
+    stack = whole(live, len(motion.unit.h))
     while stack and ledger.witness is None:
         batch = stack.pop()
-        left = _look(batch, poses(model, joint, batch.boxes), motion, effort, ledger)
+        now = poses(model, joint, batch.boxes, errors)
+        left = _look(batch, now, motion, effort, ledger)
         if not left or ledger.witness is not None:
             continue
         if batch.depth >= DEEPEST or _spent(ledger, effort):
-            _give_up(left, effort, ledger)
+            _give_up(batch, left, ledger)
         else:
             stack += divide(batch, left)
+    return _outcome(ledger, bool(live))
+
+
+def _outcome(ledger: Ledger, live: bool) -> Outcome:
     verdict = UNKNOWN if ledger.undecided else PROVED
     if ledger.witness is not None:
         verdict = REFUTED
     shown = ledger.proved if verdict == PROVED and live else None
-    return Outcome(verdict, shown, ledger.witness, ledger.checks, ledger.boxes)
+    return Outcome(
+        verdict, shown, ledger.witness, ledger.checks, ledger.boxes, ledger.leaves
+    )
 
 
 def _spent(ledger: Ledger, effort: Effort) -> bool:
@@ -112,12 +141,11 @@ def _spent(ledger: Ledger, effort: Effort) -> bool:
     return many or ledger.boxes >= effort.max_boxes
 
 
-def _give_up(left: list[Work], effort: Effort, ledger: Ledger) -> None:
+def _give_up(batch: Batch, left: list[Work], ledger: Ledger) -> None:
     """No further division: what was shown so far may be enough or not."""
     for item in left:
-        enough = item.shown >= item.target.required + effort.slack
-        ledger.undecided |= not bool(np.all(enough))
-        ledger.proved = min(ledger.proved, float(item.shown.min()))
+        _settle(item, batch, item.target.required + item.target.slack, ledger)
+        ledger.undecided |= len(item.box) > 0
 
 
 def _look(
@@ -125,39 +153,62 @@ def _look(
 ) -> list[Work]:
     """Refute or prove what one look at the boxes can; the rest is returned."""
     ledger.boxes += len(batch.boxes.half)
-    _measure(batch.work, now, ledger)
-    ledger.witness = _witness(batch.work, batch.boxes, motion, effort)
+    tighten = batch.depth < DEEPEST_FOR_CLEARANCE
+    work = batch.work
+    _measure(work, now, ledger)
+    while coarse := [item for item in work if item.target.finer is not None]:
+        _guess(coarse, now, ledger)
+        _sift(coarse, batch, now, _wish(effort, ledger, tighten), ledger)
+        opened = [item.taken_apart(slice(None)) for item in coarse if len(item.box)]
+        _measure(opened, now, ledger)
+        work = [item for item in work if item.target.finer is None] + opened
+    ledger.witness = _witness(work, batch, motion)
     if ledger.witness is not None:
         return []
-    return _sift(batch.work, now, effort, ledger, batch.depth < DEEPEST_FOR_CLEARANCE)
+    _sift(work, batch, now, _wish(effort, ledger, tighten), ledger)
+    return [item for item in work if len(item.box)]
+
+
+def _guess(coarse: list[Work], now: Poses, ledger: Ledger) -> None:
+    """Look into the nearest coarse row of each: tells how near it all comes."""
+    for item in coarse:
+        while item.target.finer is not None:
+            item = item.taken_apart(np.array([int(np.argmin(item.d))]))
+            item.d = item.target.distance(now, item.box, item.pair)
+        ledger.nearest = min(ledger.nearest, float(item.d.min()))
+
+
+def _wish(effort: Effort, ledger: Ledger, tighten: bool) -> float:
+    """A bound this high need not be improved; it decides no verdict."""
+    near = ledger.nearest
+    return near - max(effort.resolution, 0.1 * abs(near)) if tighten else -np.inf
 
 
 def _measure(work: list[Work], now: Poses, ledger: Ledger) -> None:
     for item in work:
         item.d = item.target.distance(now, item.box, item.pair)
         ledger.checks += len(item.d)
-        ledger.nearest = min(ledger.nearest, float(item.d.min()))
+        if item.target.finer is None and len(item.d):
+            ledger.nearest = min(ledger.nearest, float(item.d.min()))
 
 
-def _witness(
-    work: list[Work], boxes: Boxes, motion: Motion, effort: Effort
-) -> dict[str, Any] | None:
+def _witness(work: list[Work], batch: Batch, motion: Motion) -> dict[str, Any] | None:
     """The worst collision among the middles, or None."""
-    worst, found = -effort.slack, None
+    worst, found = 0.0, None
     for item in work:
         row = int(np.argmin(item.d))
-        lacking = float(item.d[row]) - item.target.required
+        lacking = float(item.d[row]) - item.target.required + item.target.slack
         if lacking < worst:
             worst, found = lacking, (item, row)
     if found is None:
         return None
     item, row = found
     box = item.box[row]
-    piece, s = int(boxes.piece[box]), float(boxes.middle[box])
-    p = motion.pieces
+    piece, s = int(batch.boxes.piece[box]), float(batch.boxes.middle[box])
+    p, h = motion.unit, float(motion.t[piece + 1] - motion.t[piece])
     q = p.c0[piece] + s * (p.c1[piece] + s * (p.c2[piece] + s * p.c3[piece]))
     return {
-        "time": float(motion.t[piece] + s),
+        "time": float(motion.t[piece] + s * h),
         "q": [float(x) for x in q],
         "pair": item.target.label(int(item.pair[row])),
         "distance": float(item.d[row]),
@@ -166,28 +217,27 @@ def _witness(
 
 
 def _sift(
-    work: list[Work], now: Poses, effort: Effort, ledger: Ledger, tighten: bool
-) -> list[Work]:
-    """Prove what can be proved; what is left goes to both halves."""
-    near = ledger.nearest
-    wish = near - max(effort.resolution, 0.1 * abs(near)) if tighten else -np.inf
-    left = []
+    work: list[Work], batch: Batch, now: Poses, wish: float, ledger: Ledger
+) -> None:
+    """Prove what can be proved; what is left stays in the work."""
     for item in work:
-        need = max(item.target.required + effort.slack, wish)
-        travel = item.target.travel(now)[item.box, item.pair]
+        need = max(item.target.required + item.target.slack, wish)
+        travel = item.target.travel(now, item.box, item.pair)
         item.shown = np.maximum(item.shown, item.d - travel)
-        _settle(item, need, ledger)
+        _settle(item, batch, need, ledger)
         if len(item.box):
             sharp = item.target.sharp(now, item.box, item.pair)
             item.shown = np.fmax(item.shown, sharp)
-            _settle(item, need, ledger)
-        if len(item.box):
-            left.append(item)
-    return left
+            _settle(item, batch, need, ledger)
 
 
-def _settle(item: Work, need: float, ledger: Ledger) -> None:
+def _settle(item: Work, batch: Batch, need: float, ledger: Ledger) -> None:
     done = item.shown >= need
-    if done.any():
-        ledger.proved = min(ledger.proved, float(item.shown[done].min()))
-        item.keep(~done)
+    if not done.any():
+        return
+    least = float(item.shown[done].min()) - item.target.slack
+    ledger.proved = min(ledger.proved, float(np.nextafter(least, -np.inf)))
+    if ledger.leaves is not None:
+        rows = item.box[done], item.pair[done], item.shown[done]
+        ledger.leaves.append(Leaf(item.target, batch.boxes, *rows))
+    item.keep(~done)

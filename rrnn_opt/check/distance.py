@@ -16,6 +16,10 @@ from rrnn_opt.check import reading
 from rrnn_opt.check.reading import Array, get
 from rrnn_opt.errors import DocumentError
 
+TINY = 1e-100
+"""Vectors shorter than this, m, are not divided by their length: any direction
+will do, and none may lose its unit length to underflow."""
+
 
 @dataclass(frozen=True, eq=False)
 class Obstacle:
@@ -35,6 +39,11 @@ class Obstacle:
     rotation: Array
     position: Array
     dims: Array
+
+    @property
+    def size(self) -> float:
+        """Distance from the origin plus its own dimensions, m: for rounding."""
+        return float(np.abs(self.position).sum() + np.abs(self.dims).sum())
 
 
 def read_obstacle(value: Any, name: str) -> Obstacle:
@@ -121,14 +130,14 @@ def normals(obstacle: Obstacle, points: Array) -> Array:
         n = _box_normals(local, obstacle.dims)
     elif obstacle.kind == "cylinder":
         flat = _meridian(local)
-        m, off_axis = _box_normals(flat, obstacle.dims), flat[:, :1] > 0
+        m, off_axis = _box_normals(flat, obstacle.dims), flat[:, :1] > TINY
         out = local[:, :2] / np.where(off_axis, flat[:, :1], 1.0)
         out = np.where(off_axis, out, (1.0, 0.0))
         n = np.concatenate([m[:, :1] * out, m[:, 1:]], axis=1)
     else:
         away = _from_core(local, obstacle.dims)
         far = _lengths(away)[:, None]
-        n = np.where(far > 0, away / np.where(far > 0, far, 1.0), (1.0, 0.0, 0.0))
+        n = np.where(far > TINY, away / np.where(far > TINY, far, 1.0), (1.0, 0.0, 0.0))
     return np.asarray(n @ obstacle.rotation.T)
 
 
@@ -147,13 +156,13 @@ def _box_normals(local: Array, half: Array) -> Array:
     out = np.maximum(over, 0.0)
     far = _lengths(out)[:, None]
     nearest = np.eye(local.shape[1])[np.argmax(over, axis=1)]
-    n = np.where(far > 0, out / np.where(far > 0, far, 1.0), nearest)
+    n = np.where(far > TINY, out / np.where(far > TINY, far, 1.0), nearest)
     return np.where(local < 0, -n, n)
 
 
 def _meridian(local: Array) -> Array:
     """Distance from the axis, and height along it, (M, 2)."""
-    return np.stack([np.hypot(local[:, 0], local[:, 1]), local[:, 2]], axis=1)
+    return np.stack([_lengths(local[:, :2]), local[:, 2]], axis=1)
 
 
 def _from_core(local: Array, dims: Array) -> Array:
@@ -188,7 +197,7 @@ def _support(obstacle: Obstacle, n: Array) -> Array:
     if obstacle.kind == "box":
         return np.asarray(n @ obstacle.dims)
     if obstacle.kind == "sphere":
-        return np.asarray(np.linalg.norm(n, axis=1) * obstacle.dims[0])
+        return np.asarray(_lengths(n) * obstacle.dims[0])
     across = n[:, :2] if obstacle.kind == "cylinder" else n
-    radius = np.linalg.norm(across, axis=1) * obstacle.dims[0]
+    radius = _lengths(across) * obstacle.dims[0]
     return np.asarray(radius + n[:, 2] * obstacle.dims[1])

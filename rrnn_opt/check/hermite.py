@@ -55,6 +55,38 @@ def pieces(t: Array, q: Array, qd: Array) -> Pieces:
     return Pieces(h, q[:-1], qd[:-1], c2, c3)
 
 
+def unit_pieces(t: Array, q: Array, qd: Array) -> Pieces:
+    """The same cubics over a local time from 0 to 1, ``s / h``.
+
+    Its dyadic fractions are exact doubles, so intervals of it tile a piece
+    without a hole.  With D = q_{i+1} - q_i and V = h qd,
+
+        c1 = V_i,  c2 = 3 D - 2 V_i - V_{i+1},  c3 = V_i + V_{i+1} - 2 D.
+
+    Args:
+        t: times, increasing, (n,), s.
+        q: positions, (n, nv), rad or m.
+        qd: velocities, (n, nv), rad/s or m/s.
+    """
+    wide = np.diff(t)[:, None]
+    move, first, last = np.diff(q, axis=0), wide * qd[:-1], wide * qd[1:]
+    c2, c3 = 3 * move - 2 * first - last, first + last - 2 * move
+    return Pieces(np.ones(len(wide)), q[:-1], first, c2, c3)
+
+
+def unit_size(t: Array, q: Array, qd: Array) -> Array:
+    """A = 12 |D| + 8 |V_i| + 5 |V_{i+1}|, the largest of all pieces, (nv,).
+
+    No less than the sum of the absolute values of all terms, written out in D
+    and V, of |c1| + 2 |c2| + 3 |c3|: what rounding can act on where the motion
+    of :func:`unit_pieces` or a derivative of it is evaluated, q_i left out.
+    """
+    wide = np.diff(t)[:, None]
+    ends = wide * (8 * np.abs(qd[:-1]) + 5 * np.abs(qd[1:]))
+    size: Array = (12 * np.abs(np.diff(q, axis=0)) + ends).max(axis=0)
+    return size
+
+
 def position(p: Pieces, s: Array) -> Array:
     """Position at local times ``s``, (n-1, 1) or (n-1, nv)."""
     return p.c0 + s * (p.c1 + s * (p.c2 + s * p.c3))

@@ -6,13 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.check import hermite, reading
+from rrnn_opt.check import reading
 from rrnn_opt.check.collision import Motion
-from rrnn_opt.check.distance import Obstacle, read_obstacle
+from rrnn_opt.check.distance import read_obstacle
 from rrnn_opt.check.model import Model
-from rrnn_opt.check.motion_bound import reach_table
 from rrnn_opt.check.reading import Array, get
-from rrnn_opt.check.targets import ObstacleTarget, SelfTarget, Target
+from rrnn_opt.check.scene import Scene, build_scene
 from rrnn_opt.errors import DocumentError
 
 
@@ -34,19 +33,16 @@ def read_motion(trajectory: Any, nv: int) -> tuple[Motion, Array | None]:
     qdd = block.get("qdd")
     if qdd is not None:
         qdd = reading.numbers(qdd, (n, nv), "trajectory.qdd")
-    return Motion(t, q, hermite.pieces(t, q, qd)), qdd
+    return Motion.of(t, q, qd), qdd
 
 
-def read_targets(
-    model: Model, problem: Any, motion: Motion
-) -> tuple[list[Target], float]:
-    """All that must keep apart, and the size of the largest number, m.
+def read_scene(model: Model, problem: Any, motion: Motion) -> Scene:
+    """All that must keep apart.
 
     Raises:
         DocumentError: an obstacle is malformed or cannot be judged.
     """
-    if problem.get("attached"):
-        raise DocumentError("problem.attached", "attached bodies cannot be judged yet")
+    _require_attached(model, problem.get("attached"))
     given = problem.get("obstacles")
     entries = reading.listing([] if given is None else given, "problem.obstacles")
     obstacles = [
@@ -55,34 +51,18 @@ def read_targets(
     margin = reading.number(problem.get("margin", 0.0), "problem.margin")
     if margin < 0:
         raise DocumentError("problem.margin", "must not be negative")
-    low, high = _extents(model, motion)
-    reach = reach_table(model, low, high)
-    moving = np.flatnonzero(model.carrier >= 0)
-    targets: list[Target] = [
-        ObstacleTarget(model, obstacle, moving, reach, margin) for obstacle in obstacles
-    ]
-    # two bodies that cannot move are nobody's concern
-    live = np.any(model.carrier[model.pairs] >= 0, axis=1)
-    targets.append(SelfTarget(model, model.pairs[live], reach))
-    return targets, _size(model, obstacles, reach, motion)
+    return build_scene(model, obstacles, margin, motion)
 
 
-def _extents(model: Model, motion: Motion) -> tuple[Array, Array]:
-    """Least and greatest joint values that occur, (nj,) each."""
-    low, high = hermite.position_range(motion.pieces)
-    ends = model.joint_values(np.stack([low.min(axis=0), high.max(axis=0)]))
-    grow = 1e-9 * (1 + np.abs(ends).max(axis=0))
-    return ends.min(axis=0) - grow, ends.max(axis=0) + grow
+def _require_attached(model: Model, attached: Any) -> None:
+    """Every attached object must be among the bodies of the robot block.
 
-
-def _size(
-    model: Model, obstacles: list[Obstacle], reach: Array, motion: Motion
-) -> float:
-    """Largest number that rounding can act on, m."""
-    arm = float(reach.max(initial=0.0)) + float(np.abs(model.translation).max())
-    turned = 1.0 + float(np.abs(motion.q).max())
-    world = max(
-        (float(np.abs(o.position).max() + o.dims.sum()) for o in obstacles),
-        default=0.0,
-    )
-    return arm * turned + world
+    What its spheres must cover is stated in the axes of a frame that the robot
+    block does not have; that they do is the word of whoever wrote the block.
+    """
+    entries = reading.listing([] if attached is None else attached, "problem.attached")
+    for k, entry in enumerate(entries):
+        field = f"problem.attached[{k}]"
+        name = get(reading.mapping(entry, field), "name", field)
+        if name not in model.links:
+            raise DocumentError(f"{field}.name", "no sphere of the robot stands for it")

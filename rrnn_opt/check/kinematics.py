@@ -8,6 +8,7 @@ import numpy as np
 
 from rrnn_opt.check.model import Model
 from rrnn_opt.check.reading import Array
+from rrnn_opt.check.sincos import sincos
 
 
 class Frames(NamedTuple):
@@ -24,21 +25,24 @@ class Frames(NamedTuple):
     axes: Array
 
 
-def turn(axis: Array, angle: Array) -> Array:
-    """Rotations about one unit axis: cos I + sin [a]x + (1 - cos) a a'.
+def turn_forms(model: Model) -> Array:
+    """The three matrices whose sum is a joint's frame in its parent's.
 
-    Args:
-        axis: (3,).
-        angle: (N,), rad.
+    ``P (a a' + cos (I - a a') + sin [a]x)``, P the placement and a the axis; a
+    slide does not turn, its first matrix is P and the others are zero.
 
     Returns:
-        (N, 3, 3).
+        (nj, 3, 3, 3).
     """
-    x, y, z = axis
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    c, s = np.cos(angle)[:, None, None], np.sin(angle)[:, None, None]
-    result: Array = c * np.eye(3) + s * cross + (1 - c) * np.outer(axis, axis)
-    return result
+    p, a = model.rotation, model.axes
+    x, y, z = a.T
+    zero = np.zeros_like(x)
+    cross = np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]])
+    along = np.einsum("kij,kj->ki", p, a)[:, :, None] * a[:, None, :]
+    forms = np.stack([along, p - along, p @ np.moveaxis(cross, 2, 0)], axis=1)
+    forms[model.prismatic] = 0.0
+    forms[model.prismatic, 0] = p[model.prismatic]
+    return forms
 
 
 def forward(model: Model, joints: Array) -> Frames:
@@ -49,23 +53,34 @@ def forward(model: Model, joints: Array) -> Frames:
         joints: joint values (not coordinates), (N, nj), rad or m.
     """
     n = len(joints)
-    rotations = np.empty((n, model.nj, 3, 3))
-    origins = np.empty((n, model.nj, 3))
-    axes = np.empty((n, model.nj, 3))
+    rotations = np.empty((model.nj, n, 3, 3))
+    origins, axes = np.empty((model.nj, n, 3)), np.empty((model.nj, n, 3))
+    turned = _turned(model, joints)
+    slides = np.einsum("kij,kj->ki", model.rotation, model.axes)
     for k, parent in enumerate(model.parents):
         if parent < 0:
-            base_r, base_p = np.eye(3), np.zeros(3)
+            rotations[k], axes[k] = turned[k], slides[k]
+            origins[k] = model.translation[k]
         else:
-            base_r, base_p = rotations[:, parent], origins[:, parent]
-        placed = base_r @ model.rotation[k]
-        axes[:, k] = placed @ model.axes[k]
-        origins[:, k] = base_p + base_r @ model.translation[k]
+            base = rotations[parent]
+            np.matmul(base, turned[k], out=rotations[k])
+            axes[k] = base @ slides[k]
+            origins[k] = origins[parent] + base @ model.translation[k]
         if model.prismatic[k]:
-            rotations[:, k] = placed
-            origins[:, k] += joints[:, k, None] * axes[:, k]
-        else:
-            rotations[:, k] = placed @ turn(model.axes[k], joints[:, k])
-    return Frames(rotations, origins, axes)
+            origins[k] += joints[:, k, None] * axes[k]
+    return Frames(
+        np.moveaxis(rotations, 0, 1), np.moveaxis(origins, 0, 1), axes.swapaxes(0, 1)
+    )
+
+
+def _turned(model: Model, joints: Array) -> Array:
+    """Each joint's frame in its parent's, (nj, N, 3, 3)."""
+    sine, cosine = sincos(joints.T)
+    forms = turn_forms(model)[:, :, None]
+    turned: Array = forms[:, 1] * cosine[..., None, None]
+    turned += forms[:, 2] * sine[..., None, None]
+    turned += forms[:, 0]
+    return turned
 
 
 def sphere_centres(model: Model, frames: Frames) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,9 @@ TYPES = ("revolute", "continuous", "prismatic")
 @dataclass(frozen=True, eq=False)
 class Model:
     """A robot of nj joints, nv coordinates and ns spheres.
+
+    A rotation of the document stands for the exact rotation nearest to it, an
+    axis for its direction; what is kept here is within 24 u and 4 u of them.
 
     Attributes:
         parents: parent joint, -1 for the base, (nj,).
@@ -78,6 +82,7 @@ class Model:
         """Coordinates (N, nv) to joint values (N, nj)."""
         return self.multiplier * q[:, self.source] + self.offset
 
+    @cached_property
     def sphere_moved_by(self) -> NDArray[np.bool_]:
         """``[i, k]``: joint k moves sphere i, (ns, nj)."""
         padded = np.vstack([self.moved_by, np.zeros((1, self.nj), dtype=bool)])
@@ -146,14 +151,15 @@ def _placements(value: Any, nj: int) -> tuple[Array, Array]:
         raise DocumentError("robot.placements", f"must be {nj} matrices")
     poses = [reading.pose(m, f"robot.placements[{k}]") for k, m in enumerate(matrices)]
     rotation = np.array([r for r, _ in poses]).reshape(nj, 3, 3)
-    return rotation, np.array([p for _, p in poses]).reshape(nj, 3)
+    return reading.polished(rotation), np.array([p for _, p in poses]).reshape(nj, 3)
 
 
 def _axes(value: Any, nj: int) -> Array:
     axes = reading.numbers(value, (nj, 3), "robot.axes")
     if np.any(np.abs(np.linalg.norm(axes, axis=1) - 1.0) > 1e-9):
         raise DocumentError("robot.axes", "must be of unit length")
-    return axes
+    unit: Array = axes / np.sqrt(np.sum(axes * axes, axis=1))[:, None]
+    return unit
 
 
 def _moved_by(parents: NDArray[np.int64]) -> NDArray[np.bool_]:

@@ -8,7 +8,8 @@ For joint moves ``|delta_k| <= h_k`` a centre goes to ``p + J delta + rest``,
 
 over the joints that move the centre, j < k being nearer to the base.  R_k is
 no less than the distance of the centre from joint k's axis: the chain length
-between them, each prismatic joint at its largest extension.
+between them, each prismatic joint at its largest extension.  All of it are sums
+of products of numbers >= 0: ``GROW`` covers their rounding.
 """
 
 from __future__ import annotations
@@ -18,6 +19,10 @@ from numpy.typing import NDArray
 
 from rrnn_opt.check.model import Model
 from rrnn_opt.check.reading import Array
+from rrnn_opt.check.rounding import GROW
+
+PLACED = 5e-9
+"""A slide's direction may be off by this before a document is refused."""
 
 
 def reach_table(model: Model, low: Array, high: Array) -> Array:
@@ -34,18 +39,26 @@ def reach_table(model: Model, low: Array, high: Array) -> Array:
     slide = np.einsum("kij,kj->ki", model.rotation, model.axes)
     slide = slide * model.prismatic[:, None]
     links = np.maximum(
-        np.linalg.norm(model.translation + slide * low[:, None], axis=1),
-        np.linalg.norm(model.translation + slide * high[:, None], axis=1),
+        _lengths(model.translation + slide * low[:, None]),
+        _lengths(model.translation + slide * high[:, None]),
     )
+    most = np.maximum(np.abs(low), np.abs(high))
+    links += PLACED * most * model.prismatic
     table = np.zeros((len(model.radii), model.nj))
-    for i, joint in enumerate(model.carrier):
-        length = float(np.linalg.norm(model.centres[i]))
-        k = int(joint)
+    arms = _lengths(model.centres)
+    for joint in np.unique(model.carrier):
+        mine = model.carrier == joint
+        length, k = arms[mine], int(joint)
         while k >= 0:
-            table[i, k] = length
-            length += float(links[k])
+            table[mine, k] = length * GROW
+            length = length + links[k]
             k = int(model.parents[k])
     return table
+
+
+def _lengths(rows: Array) -> Array:
+    lengths: Array = np.sqrt(np.sum(rows * rows, axis=1))
+    return lengths
 
 
 def motion_bound(
@@ -67,16 +80,16 @@ def motion_bound(
     """
     step = h * moved
     turned = step * ~prismatic
-    before = np.cumsum(turned, axis=1) - turned
-    revolute = step * reach * (step + 2 * before)
-    sliding = 2 * step * before
-    total: Array = np.sum(np.where(prismatic, sliding, revolute), axis=1)
-    return total
+    before = np.zeros_like(step)
+    np.cumsum(turned[:, :-1], axis=1, out=before[:, 1:])
+    levers = np.where(prismatic, 1.0, reach)
+    total: Array = np.sum(step * levers * (turned + 2 * before), axis=1)
+    return total * GROW
 
 
 def travel_levers(
     reach: Array, moved: NDArray[np.bool_], prismatic: NDArray[np.bool_]
 ) -> Array:
     """Levers L with |p(q + delta) - p(q)| <= L.h: R for a turn, 1 for a slide."""
-    levers: Array = np.where(prismatic, 1.0, reach) * moved
+    levers: Array = np.where(prismatic, 1.0, reach) * moved * GROW
     return levers

@@ -126,6 +126,18 @@ def rotation(matrix: Array, name: str) -> Array:
     return matrix
 
 
+def polished(rotation: Array) -> Array:
+    """Rotations (..., 3, 3) brought to within 24 u of the nearest exact ones.
+
+    One step of Newton and Schulz, ``R (3 I - R'R) / 2``: it turns a singular
+    value 1 + e into 1 - 3 e^2 / 2 - .., and what is read has |e| < 1.5e-9.  Its
+    own rounding is 9 u / 2 for R'R, 9 u for the product and 2 u for the rest.
+    """
+    gram = np.swapaxes(rotation, -1, -2) @ rotation
+    step: Array = rotation @ ((3 * np.eye(3) - gram) / 2)
+    return step
+
+
 def pose(value: Any, name: str) -> tuple[Array, Array]:
     """A 4 x 4 homogeneous matrix as (rotation, translation).
 

@@ -7,21 +7,23 @@ travel), and a sharp one,
     gap - |n'J v tau| - |n'J a tau^2 / 2| - |n'J j tau^3 / 6| - B(h) / 2,
 
 the terms being those of the joints' exact cubics.  A convex obstacle lies in
-a half-space with normal n, so the sharp bound holds for the whole box.
+a half-space with normal n, so the sharp bound holds for the whole box.  A
+coarse target speaks of balls that hold several spheres of one body; what it
+cannot settle goes to the pairs of its ``finer`` one.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rrnn_opt.check.boxes import Index, Poses
-from rrnn_opt.check.distance import Obstacle, gap, normals, signed_distance
+from rrnn_opt.check.distance import TINY, Obstacle, gap, normals, signed_distance
 from rrnn_opt.check.model import Model
-from rrnn_opt.check.motion_bound import motion_bound, travel_levers
+from rrnn_opt.check.movers import Movers, first_order, way
 from rrnn_opt.check.reading import Array
 
 
@@ -33,11 +35,19 @@ class Target(Protocol):
         """Least distance, m."""
 
     @property
+    def slack(self) -> float:
+        """No bound or distance given here is off by more, m."""
+
+    @property
     def count(self) -> int:
         """Number of pairs."""
 
-    def travel(self, poses: Poses) -> Array:
-        """How far each pair can approach inside each box, (B, count), m."""
+    @property
+    def finer(self) -> Finer | None:
+        """Where the pairs are taken apart; None if they are single spheres."""
+
+    def travel(self, poses: Poses, box: Index, pair: Index) -> Array:
+        """How far the pair can approach inside the box, (M,), m."""
 
     def distance(self, poses: Poses, box: Index, pair: Index) -> Array:
         """Signed distance at the middle, (M,), m."""
@@ -49,22 +59,34 @@ class Target(Protocol):
         """The two names of a pair."""
 
 
-def _row_jacobian(
-    poses: Poses, prismatic: NDArray[np.bool_], box: Index, points: Array, n: Array
-) -> Array:
-    """Rows n'J of points at the joints (unmasked), (M, nj)."""
-    axes, origins = poses.axes[box], poses.origins[box]
-    across = np.cross(axes, points[:, None] - origins)
-    columns = np.where(prismatic[:, None], axes, across)
-    row: Array = np.einsum("mki,mi->mk", columns, n)
-    return row
+@dataclass(frozen=True, eq=False)
+class Finer:
+    """The pairs that those of a coarse target stand for.
 
+    Attributes:
+        target: of single spheres.
+        pairs: its pairs, in the order of the coarse ones, (sum of sizes,).
+        sizes: how many each coarse pair has, (count,).
+    """
 
-def _first_order(poses: Poses, box: Index, row: Array) -> Array:
-    """Largest |n'J delta| inside the box, from the cubic's own terms."""
-    along: Array = np.einsum("mk,cmk->cm", row, poses.terms[:, box])
-    most: Array = np.abs(along).sum(axis=0)
-    return most
+    target: Target
+    pairs: Index
+    sizes: Index
+
+    @cached_property
+    def first(self) -> Index:
+        """Where each coarse pair's own begin, (count,)."""
+        return np.cumsum(self.sizes) - self.sizes
+
+    def rows(self, box: Index, pair: Index) -> tuple[Index, Index]:
+        """Rows (box, pair) of the finer target for rows of the coarse one."""
+        sizes = self.sizes[pair]
+        ends = np.cumsum(sizes)
+        inner = np.arange(ends[-1]) - np.repeat(ends - sizes, sizes)
+        return (
+            np.repeat(box, sizes),
+            self.pairs[np.repeat(self.first[pair], sizes) + inner],
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,51 +96,47 @@ class ObstacleTarget:
     Attributes:
         model: the robot.
         obstacle: the solid.
-        spheres: index of each pair's sphere, (count,).
-        reach: reach table, (ns, nj), m.
+        movers: the spheres, one a pair.
         required: the margin, m.
+        slack: m.
+        finer: see :class:`Target`.
     """
 
     model: Model
     obstacle: Obstacle
-    spheres: Index
-    reach: Array
+    movers: Movers
     required: float
+    slack: float
+    finer: Finer | None = None
 
     @property
     def count(self) -> int:
         """Number of spheres."""
-        return len(self.spheres)
+        return len(self.movers.spheres)
 
-    def travel(self, poses: Poses) -> Array:
+    def travel(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""
-        moved = self.model.sphere_moved_by()[self.spheres]
-        reach = self.reach[self.spheres]
-        levers = travel_levers(reach, moved, self.model.prismatic)
-        return np.asarray(poses.sway @ levers.T, dtype=np.float64)
+        return way(poses, self.movers.levers, box, pair)
 
     def distance(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""
-        sphere = self.spheres[pair]
-        d = signed_distance(self.obstacle, poses.centres[box, sphere])
+        sphere = self.movers.spheres[pair]
+        d = signed_distance(self.obstacle, poses.points(box, sphere))
         return d - self.model.radii[sphere]
 
     def sharp(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""
-        sphere = self.spheres[pair]
-        points = poses.centres[box, sphere]
+        sphere = self.movers.spheres[pair]
+        points = poses.points(box, sphere)
         n = normals(self.obstacle, points)
-        moved = self.model.sphere_moved_by()[sphere]
-        prismatic = self.model.prismatic
-        row = _row_jacobian(poses, prismatic, box, points, n) * moved
-        rest = motion_bound(poses.sway[box], self.reach[sphere], moved, prismatic)
+        row, rest = self.movers.bend(poses, box, pair, points, n)
         free = gap(self.obstacle, points, n) - self.model.radii[sphere]
-        bound: Array = free - _first_order(poses, box, row) - rest / 2
+        bound: Array = free - first_order(poses, box, row) - rest / 2
         return bound
 
     def label(self, pair: int) -> list[str]:
         """See :class:`Target`."""
-        return [self.model.links[self.spheres[pair]], self.obstacle.name]
+        return [self.model.links[self.movers.spheres[pair]], self.obstacle.name]
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,58 +148,55 @@ class SelfTarget:
 
     Attributes:
         model: the robot.
-        pairs: sphere indices, (count, 2).
-        reach: reach table, (ns, nj), m.
+        sides: first and second spheres of the pairs.
+        slack: m.
+        finer: see :class:`Target`.
         required: m.
     """
 
     model: Model
-    pairs: Index
-    reach: Array
+    sides: tuple[Movers, Movers]
+    slack: float
+    finer: Finer | None = None
     required: float = 0.0
 
     @property
     def count(self) -> int:
         """Number of pairs."""
-        return len(self.pairs)
+        return len(self.sides[0].spheres)
 
-    def _own(self, pairs: Index) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        moved = self.model.sphere_moved_by()
-        first, second = moved[pairs[:, 0]], moved[pairs[:, 1]]
-        return first & ~second, second & ~first
+    @cached_property
+    def _levers(self) -> Array:
+        return self.sides[0].levers + self.sides[1].levers
 
-    def travel(self, poses: Poses) -> Array:
+    def travel(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""
-        levers = np.zeros((self.count, self.model.nj))
-        for k, own in enumerate(self._own(self.pairs)):
-            reach = self.reach[self.pairs[:, k]]
-            levers += travel_levers(reach, own, self.model.prismatic)
-        return np.asarray(poses.sway @ levers.T, dtype=np.float64)
+        return way(poses, self._levers, box, pair)
 
     def distance(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""
-        i, j = self.pairs[pair, 0], self.pairs[pair, 1]
-        apart = poses.centres[box, i] - poses.centres[box, j]
+        i, j = (side.spheres[pair] for side in self.sides)
+        apart = poses.points(box, i) - poses.points(box, j)
         far: Array = np.sqrt(np.einsum("ij,ij->i", apart, apart))
-        return np.asarray(far - self.model.radii[i] - self.model.radii[j])
+        return far - (self.model.radii[i] + self.model.radii[j])
 
     def sharp(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""
-        sides = self.pairs[pair]
-        apart = poses.centres[box, sides[:, 0]] - poses.centres[box, sides[:, 1]]
-        far = np.linalg.norm(apart, axis=1)[:, None]
-        n = np.where(far > 0, apart / np.where(far > 0, far, 1.0), (1.0, 0.0, 0.0))
-        free = np.einsum("ij,ij->i", n, apart) - self.model.radii[sides].sum(axis=1)
-        prismatic, sway = self.model.prismatic, poses.sway[box]
-        row, rest = np.zeros_like(sway), np.zeros(len(box))
-        for k, own in enumerate(self._own(sides)):
-            sphere, sign = sides[:, k], 1 - 2 * k
-            points = poses.centres[box, sphere]
-            row += sign * own * _row_jacobian(poses, prismatic, box, points, n)
-            rest += motion_bound(sway, self.reach[sphere], own, prismatic)
-        bound: Array = free - _first_order(poses, box, row) - rest / 2
+        first, second = self.sides
+        i, j = first.spheres[pair], second.spheres[pair]
+        at_i, at_j = poses.points(box, i), poses.points(box, j)
+        apart = at_i - at_j
+        far = np.sqrt(np.einsum("ij,ij->i", apart, apart))[:, None]
+        usual = far > TINY
+        n = np.where(usual, apart / np.where(usual, far, 1.0), (1.0, 0.0, 0.0))
+        free = np.einsum("ij,ij->i", n, apart)
+        free -= self.model.radii[i] + self.model.radii[j]
+        row_i, rest_i = first.bend(poses, box, pair, at_i, n)
+        row_j, rest_j = second.bend(poses, box, pair, at_j, n)
+        bend = first_order(poses, box, row_i - row_j)
+        bound: Array = free - bend - (rest_i + rest_j) / 2
         return bound
 
     def label(self, pair: int) -> list[str]:
         """See :class:`Target`."""
-        return [self.model.links[k] for k in self.pairs[pair]]
+        return [self.model.links[side.spheres[pair]] for side in self.sides]

@@ -21,7 +21,7 @@ from rrnn_opt.check.collision import (
     prove_free,
 )
 from rrnn_opt.check.goal import GoalError, nearest_goal
-from rrnn_opt.check.inputs import read_motion, read_targets
+from rrnn_opt.check.inputs import read_motion, read_scene
 from rrnn_opt.check.limits import prove_limits
 from rrnn_opt.check.model import Model, read_model
 from rrnn_opt.check.reading import Array
@@ -29,7 +29,8 @@ from rrnn_opt.errors import DocumentError
 
 METHOD = (
     "cubic Hermite pieces: exact extremes for limits; half-space and "
-    "second-order motion bound with subdivision in time for collisions"
+    "second-order motion bound with subdivision in time for collisions; "
+    "rounding bounded by running error analysis (rounding_bound_m)"
 )
 START_TOLERANCE = 1e-9
 MAX_BOXES = 200_000
@@ -51,6 +52,8 @@ class TrajectoryCertificate:
         witness: {"time", "q", "pair", "distance", "required"} of a collision.
         limits_witness: {"kind", "coordinate", "time", "value", "limit"}.
         method: how it was shown.
+        rounding_bound_m: what rounding can do to a distance at most, derived
+            for this robot, motion and scene; already taken off, m.
         checks: (time box, pair) rows looked at.
         time_s: s.
     """
@@ -65,6 +68,7 @@ class TrajectoryCertificate:
     witness: dict[str, Any] | None
     limits_witness: dict[str, Any] | None
     method: str
+    rounding_bound_m: float | None
     checks: int
     time_s: float
 
@@ -87,7 +91,6 @@ def certify_trajectory(
     trajectory: Any,
     *,
     max_boxes: int = MAX_BOXES,
-    slack: float = 1e-9,
 ) -> TrajectoryCertificate:
     """Judge a trajectory for all times, not at samples.
 
@@ -97,7 +100,6 @@ def certify_trajectory(
             is absent is not asked for.
         trajectory: "t", "q", "qd" and, if present, "qdd".
         max_boxes: time boxes to look at before answering UNKNOWN.
-        slack: absorbs rounding, m.
 
     Raises:
         DocumentError: something in the three documents is malformed.
@@ -106,14 +108,15 @@ def certify_trajectory(
     model = read_model(robot)
     wish = reading.mapping(problem, "problem")
     motion, qdd = read_motion(trajectory, model.nv)
-    targets, size = read_targets(model, wish, motion)
     with np.errstate(all="ignore"):
+        scene = read_scene(model, wish, motion)
         limits, broken = prove_limits(model, motion.t, motion.pieces)
         goal = read_goal(model, wish, motion)
-        slack = max(slack, 256 * hermite.EPS * size)
-        outcome = prove_free(model, targets, motion, Effort(max_boxes, slack))
-        faults = _faults(model, wish, trajectory, motion, qdd)
-    return _certificate(limits, broken, goal, outcome, faults, began)
+        effort = Effort(max_boxes)
+        outcome = prove_free(scene.model, scene.targets, scene.errors, motion, effort)
+        faults = _faults(model, wish, motion, trajectory.get("duration"), qdd)
+    bound = scene.rounding_bound
+    return _certificate(limits, broken, goal, outcome, faults, bound, began)
 
 
 def _certificate(
@@ -122,6 +125,7 @@ def _certificate(
     goal: GoalError | None,
     outcome: Outcome,
     faults: tuple[str, ...],
+    bound: float,
     began: float,
 ) -> TrajectoryCertificate:
     return TrajectoryCertificate(
@@ -135,6 +139,7 @@ def _certificate(
         witness=outcome.witness,
         limits_witness=broken,
         method=METHOD,
+        rounding_bound_m=bound if np.isfinite(bound) else None,
         checks=outcome.checks,
         time_s=time.perf_counter() - began,
     )
@@ -155,17 +160,15 @@ def read_goal(model: Model, problem: Any, motion: Motion) -> GoalError | None:
 
 
 def _faults(
-    model: Model, problem: Any, trajectory: Any, motion: Motion, qdd: Array | None
+    model: Model, problem: Any, motion: Motion, duration: Any, qdd: Array | None
 ) -> tuple[str, ...]:
     found = []
     if problem.get("start") is not None:
         start = reading.numbers(problem["start"], (model.nv,), "problem.start")
         if float(np.abs(motion.q[0] - start).max()) > START_TOLERANCE:
             found.append("the first row is not the start")
-    rates = reading.numbers(trajectory["qd"], motion.q.shape, "trajectory.qd")
-    if np.any(rates[0] != 0) or np.any(rates[-1] != 0):
+    if np.any(motion.qd[0] != 0) or np.any(motion.qd[-1] != 0):
         found.append("the motion does not start and end at rest")
-    duration = trajectory.get("duration")
     if duration is not None:
         stated = reading.number(duration, "trajectory.duration")
         if abs(stated - motion.t[-1]) > 1e-9 * (1 + motion.t[-1]):

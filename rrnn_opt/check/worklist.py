@@ -3,17 +3,34 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rrnn_opt.check.boxes import Boxes, Index
-from rrnn_opt.check.hermite import Pieces
 from rrnn_opt.check.reading import Array
 from rrnn_opt.check.targets import Target
 
-ROWS = 300_000
-"""Rows (box, pair) held at a time: bounds memory, decides nothing."""
+ROWS = 200_000
+"""Rows (box, pair) begun with at a time: bounds memory, decides nothing."""
+
+
+class Leaf(NamedTuple):
+    """Rows of one target that were proved, each over its whole box.
+
+    Attributes:
+        target: whose pairs they are.
+        boxes: the boxes.
+        box: row of ``boxes``, (M,).
+        pair: (M,).
+        shown: the bound that was found, (M,), m.
+    """
+
+    target: Target
+    boxes: Boxes
+    box: Index
+    pair: Index
+    shown: Array
 
 
 @dataclass
@@ -21,12 +38,13 @@ class Ledger:
     """What is known so far, over all batches.
 
     Attributes:
-        proved: least bound among the rows settled, m.
+        proved: least bound among the rows settled, rounding taken off, m.
         nearest: least distance met at the middle of a box, m.
         undecided: some row was given up.
         checks: rows looked at.
         boxes: boxes looked at.
         witness: of a collision, or None.
+        leaves: what was proved where, if it is to be kept.
     """
 
     proved: float = np.inf
@@ -35,6 +53,7 @@ class Ledger:
     checks: int = 0
     boxes: int = 0
     witness: dict[str, Any] | None = None
+    leaves: list[Leaf] | None = None
 
 
 @dataclass
@@ -68,6 +87,14 @@ class Work:
         pair, shown = np.repeat(self.pair[mine], 2), np.repeat(self.shown[mine], 2)
         return Work(self.target, box, pair, shown)
 
+    def taken_apart(self, chosen: Any) -> Work:
+        """The finer target's rows of the chosen ones."""
+        finer, box, pair = self.target.finer, self.box[chosen], self.pair[chosen]
+        if finer is None or not len(box):
+            return Work(self.target, box, pair, self.shown[chosen])
+        box, pair = finer.rows(box, pair)
+        return Work(finer.target, box, pair, np.full(len(box), -np.inf))
+
 
 @dataclass(frozen=True, eq=False)
 class Batch:
@@ -78,7 +105,7 @@ class Batch:
     depth: int
 
 
-def whole(live: list[Target], n: int, pieces: Pieces) -> list[Batch]:
+def whole(live: list[Target], n: int) -> list[Batch]:
     """All pieces against all targets, few enough at a time; the first on top."""
     pairs = sum(target.count for target in live)
     if not pairs:
@@ -86,7 +113,7 @@ def whole(live: list[Target], n: int, pieces: Pieces) -> list[Batch]:
     size = max(1, ROWS // pairs)
     batches = []
     for first in range(0, n, size):
-        boxes = Boxes.whole(pieces, first, min(first + size, n))
+        boxes = Boxes.whole(first, min(first + size, n))
         work = [everything(target, len(boxes.half)) for target in live]
         batches.append(Batch(boxes, work, 0))
     return batches[::-1]

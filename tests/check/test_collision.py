@@ -52,15 +52,16 @@ def test_without_pairs_there_is_nothing_to_prove():
     assert found.checks == 0
 
 
-def test_a_slack_is_kept():
-    """A pair that keeps its distance by less than the slack is not proved."""
+def test_the_slack_is_kept():
+    """What rounding could have done is neither proved nor refuted."""
     robot, _ = next(cases())
     still = Trajectory.from_rows([0, 1.0], np.zeros((2, 3)), np.zeros((2, 3))).to_dict()
     ball = {"type": "sphere", "radius": 0.1, "position": [0.3, 0.2, 0.0]}
     robot = {**robot, "self_pairs": []}
     least = certify_trajectory(robot, {"obstacles": [ball]}, still)
-    gap = least.clearance_lower_bound
-    for margin, verdict in ((gap - 1e-8, "PROVED"), (gap - 1e-10, "UNKNOWN")):
-        problem = {"obstacles": [ball], "margin": margin}
+    gap, room = least.clearance_lower_bound, least.rounding_bound_m
+    assert 0 < room < 1e-12
+    for more, verdict in ((-1, "PROVED"), (0.5, "UNKNOWN"), (4, "REFUTED")):
+        problem = {"obstacles": [ball], "margin": gap + more * room}
         found = certify_trajectory(robot, problem, still, max_boxes=50)
         assert found.collision_free == verdict

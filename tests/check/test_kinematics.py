@@ -88,4 +88,4 @@ def test_a_sphere_is_moved_by_its_ancestors_only(tree):
             [1, 0, 0, 1, 1],
         ]
     )
-    np.testing.assert_array_equal(model.sphere_moved_by(), expected.astype(bool))
+    np.testing.assert_array_equal(model.sphere_moved_by, expected.astype(bool))

@@ -43,7 +43,7 @@ def test_reach_is_never_exceeded(robot):
     model, rng = read_model(robot), np.random.default_rng(1)
     reach, moved = (
         reach_table(model, *extents(model)),
-        read_model(robot).sphere_moved_by(),
+        read_model(robot).sphere_moved_by,
     )
     for _ in range(100):
         joints = sample(model, rng)[None]
@@ -57,7 +57,7 @@ def test_reach_is_never_exceeded(robot):
 
 def test_the_rest_never_exceeds_the_bound(robot):
     model, rng = read_model(robot), np.random.default_rng(2)
-    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by()
+    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by
     worst = 0.0
     for _ in range(150):
         delta = rng.normal(size=model.nj) * 10 ** rng.uniform(-2, -0.3)
@@ -73,7 +73,7 @@ def test_the_rest_never_exceeds_the_bound(robot):
 def test_the_bound_is_sharp_for_a_stretched_arm(planar):
     """Both joints turn the same way, arm straight: rest -> B / 2."""
     model = read_model(planar)
-    reach, moved = reach_table(model, *extents(model)), model.sphere_moved_by()
+    reach, moved = reach_table(model, *extents(model)), model.sphere_moved_by
     delta = np.array([1e-3, 1e-3])
     rest, bound = rest_and_bound(model, np.zeros(2), delta, reach, moved)
     ratio = 2 * np.linalg.norm(rest[2]) / bound[2]
@@ -82,7 +82,7 @@ def test_the_bound_is_sharp_for_a_stretched_arm(planar):
 
 def test_travel_is_never_exceeded(robot):
     model, rng = read_model(robot), np.random.default_rng(3)
-    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by()
+    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by
     levers = travel_levers(reach, moved, model.prismatic)
     for _ in range(150):
         delta = rng.normal(size=model.nj) * 0.3
@@ -96,7 +96,7 @@ def test_travel_is_never_exceeded(robot):
 def test_joints_above_a_common_ancestor_do_not_count(tree):
     """Seen from the last common joint, a sphere moves by the joints below it."""
     model, rng = read_model(tree), np.random.default_rng(4)
-    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by()
+    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by
     own = moved[[2, 4]] & ~moved[[4, 2]]
     np.testing.assert_array_equal(own[0], [False, True, True, False, False])
     for _ in range(100):

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from rrnn_opt.check import hermite, inputs
+from rrnn_opt.check import inputs, kinematics
+from rrnn_opt.check.bodies import CELL
 from rrnn_opt.check.boxes import Boxes, joint_pieces, poses
 from rrnn_opt.check.collision import Motion
-from rrnn_opt.check.hermite import Pieces
 from rrnn_opt.check.model import read_model
-from rrnn_opt.check.targets import ObstacleTarget
 
 TURN = (np.array([1.0, 2.0, -3.0, 1.5]) / np.linalg.norm([1, 2, -3, 1.5])).tolist()
 OBSTACLES = [
@@ -27,21 +26,36 @@ def motion_of(model, rng, orders):
     size = np.where(low > -1, 0.2, 1.0) * 10 ** rng.uniform(-2, -0.3)
     for order in orders:
         c[order] = rng.normal(size=model.nv) * size
-    # about the middle s = 1, with tau = 1: shift the polynomial by one
-    a, b, d, e = c
-    shifted = Pieces(np.array([2.0]), a - b + d - e, b - 2 * d + 3 * e, d - 3 * e, e)
-    return Motion(np.array([0.0, 2.0]), shifted.c0, shifted)
+    # about the middle of a piece from -1 to 1
+    q = np.concatenate([c[0] - c[1] + c[2] - c[3], c.sum(axis=0)])
+    qd = np.concatenate([c[1] - 2 * c[2] + 3 * c[3], c[1] + 2 * c[2] + 3 * c[3]])
+    return Motion.of(np.array([0.0, 2.0]), q, qd)
 
 
-def at_instants(model, pieces, shares):
-    """The robot at instants of the only box, as zero-length boxes."""
+def look(scene, motion, boxes):
+    return poses(
+        scene.model, joint_pieces(scene.model, motion.unit), boxes, scene.errors
+    )
+
+
+def at_instants(scene, motion, shares):
+    """The robot at instants of the only piece, as zero-length boxes."""
     n = len(shares)
-    boxes = Boxes(np.zeros(n, dtype=np.int64), pieces.h[0] * shares, np.zeros(n))
-    return poses(model, joint_pieces(model, pieces), boxes)
+    return look(scene, motion, Boxes(np.zeros(n, dtype=np.int64), shares, np.zeros(n)))
 
 
 def everything(target, n):
     return np.repeat(np.arange(n), target.count), np.tile(np.arange(target.count), n)
+
+
+def levels(scene):
+    """All targets, coarse and fine, that have a pair."""
+    found = []
+    for target in scene.targets:
+        while target is not None:
+            found += [target] if target.count else []
+            target = None if target.finer is None else target.finer.target
+    return found
 
 
 @pytest.mark.parametrize("orders", [(1,), (2,), (3,), (1, 2, 3)])
@@ -50,20 +64,17 @@ def test_no_bound_exceeds_the_least_distance_in_its_box(robot, orders):
     tight = 0
     for _ in range(12):
         motion = motion_of(model, rng, orders)
-        targets, _ = inputs.read_targets(model, {"obstacles": OBSTACLES}, motion)
-        box = Boxes.whole(motion.pieces, 0, 1)
-        now = poses(model, joint_pieces(model, motion.pieces), box)
-        dense = at_instants(model, motion.pieces, np.linspace(0, 1, SAMPLES))
-        for target in targets:
-            if not target.count:
-                continue
+        scene = inputs.read_scene(model, {"obstacles": OBSTACLES}, motion)
+        now = look(scene, motion, Boxes.whole(0, 1))
+        dense = at_instants(scene, motion, np.linspace(0, 1, SAMPLES))
+        for target in levels(scene):
             rows = everything(target, 1)
             samples = target.distance(dense, *everything(target, SAMPLES))
             least = samples.reshape(SAMPLES, -1).min(axis=0)
             middle = target.distance(now, *rows)
             sharp = target.sharp(now, *rows)
             assert np.all(sharp <= least + 1e-9)
-            assert np.all(middle - target.travel(now)[rows] <= least + 1e-9)
+            assert np.all(middle - target.travel(now, *rows) <= least + 1e-9)
             # and it is worth something: half of the approach is explained
             moved = middle - least > 1e-3
             tight += (
@@ -79,14 +90,38 @@ def test_a_slide_is_followed_to_its_largest_extension(tree):
     q = np.zeros((2, 4))
     qd = np.zeros((2, 4))
     qd[:, 1] = [1.2, -1.2]  # bulges by 0.3 m
-    motion = Motion(t, q, hermite.pieces(t, q, qd))
-    targets, _ = inputs.read_targets(model, {"obstacles": OBSTACLES}, motion)
-    dense = at_instants(model, motion.pieces, np.linspace(0, 1, 101))
-    reach = next(t.reach for t in targets if isinstance(t, ObstacleTarget))
-    moved = model.sphere_moved_by() & ~model.prismatic
+    motion = Motion.of(t, q, qd)
+    scene = inputs.read_scene(model, {"obstacles": OBSTACLES}, motion)
+    model = scene.model
+    dense = at_instants(scene, motion, np.linspace(0, 1, 101))
+    movers = scene.targets[0].finer.target.movers
+    turning = movers.moved & ~model.prismatic
     assert dense.joints[:, 1].max() > 0.29
-    away = np.linalg.norm(dense.centres[:, :, None] - dense.origins[:, None], axis=3)
-    assert np.all(away.max(axis=0)[moved] <= reach[moved] + 1e-12)
-    still = Motion(t, q, hermite.pieces(t, q, 0 * qd))
-    shorter = inputs.read_targets(model, {"obstacles": OBSTACLES}, still)[0][0].reach
-    assert np.any(away.max(axis=0)[moved] > shorter[moved])
+    centres = dense.centres[:, movers.spheres]
+    away = np.linalg.norm(centres[:, :, None] - dense.origins[:, None], axis=3)
+    assert np.all(away.max(axis=0)[turning] <= movers.reach[turning] + 1e-12)
+    still = inputs.read_scene(
+        model, {"obstacles": OBSTACLES}, Motion.of(t, q, np.zeros_like(qd))
+    )
+    shorter = still.targets[0].finer.target.movers.reach[: len(movers.spheres)]
+    assert np.any(away.max(axis=0)[turning] > shorter[turning])
+
+
+@pytest.mark.parametrize("name", ["panda", "tree"])
+def test_every_sphere_lies_in_its_balls(name, request):
+    """Of its cell and of its body, wherever the robot is."""
+    from rrnn_opt.check.bodies import with_balls
+    from rrnn_opt.robot import Robot
+
+    builtin = name == "panda"
+    robot = Robot.builtin(name).to_dict() if builtin else request.getfixturevalue(name)
+    bodies = with_balls(read_model(robot))
+    model, ns = bodies.model, bodies.ns
+    rng = np.random.default_rng(3)
+    joints = rng.uniform(-1, 1, (20, model.nj))
+    centres = kinematics.sphere_centres(model, kinematics.forward(model, joints))
+    assert np.bincount(bodies.cell).max() <= CELL
+    for ball in (bodies.cell, bodies.body[:ns], bodies.body[bodies.cell]):
+        away = np.linalg.norm(centres[:, :ns] - centres[:, ball], axis=2)
+        assert np.all(away + model.radii[:ns] <= model.radii[ball] + 1e-12)
+        assert all(model.links[i] == model.links[b] for i, b in enumerate(ball))
