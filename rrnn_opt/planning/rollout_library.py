@@ -135,6 +135,15 @@ class RolloutSearch(Search):
             parents[i] = self._rolled("rollouts_node", ct.c_int32, types, i, pointer)
         return postures, parents
 
+    def way(self, node: int) -> Array:
+        """Waypoints from the start to a node of T_s, (N, nv)."""
+        total = int(self._rolled("rollouts_count", ct.c_int32, ()))
+        if not 0 <= node < total:
+            raise IndexError(f"T_s has nodes 0 to {total - 1}, not {node}")
+        if not self._rolled("rollouts_trace", ct.c_int32, (ct.c_int32,), node):
+            raise RrnnError("planner: out of memory while tracing the path")
+        return self.path()
+
 
 def point_goals(goals: OpenGoals, planner: str) -> OpenGoals:
     """The goals that a position scheme can be given.

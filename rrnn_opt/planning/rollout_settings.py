@@ -73,9 +73,9 @@ class PaperRnn:
     c1: float = 0.5
     c2: float = 0.5
     step: float = 0.002
-    safe: float = 0.02
+    safe: float = 0.005
     share: float = 0.9
-    random_tolerance: float = 0.001
+    random_tolerance: float = 0.01
     stall_time: float = 0.25
     stall_ratio: float = 0.98
     max_time: float = 10.0
@@ -121,8 +121,8 @@ class SingleRollout:
     gain: float = 5.0
     speed: float = 0.25
     rate: float = 20.0
-    inner: float = 0.005
-    outer: float = 0.05
+    inner: float = 0.002
+    outer: float = 0.02
     contacts: int = 10
     kappa_o: float = 10.0
     sweeps: int = 60

@@ -81,3 +81,12 @@ RRNN_EXPORT int32_t NAME(rollouts_node)(const rollouts_t *r, int32_t index, doub
     memcpy(q, r->nodes[index].state.q, NV * sizeof(double));
     return r->nodes[index].parent;
 }
+
+/* Writes the way to node `index` as the path, as line 12 does; 0: no memory. */
+RRNN_EXPORT int32_t NAME(rollouts_trace)(rollouts_t *r, int32_t index)
+{
+    free(r->base->path);
+    r->base->path = NULL;
+    r->base->path_count = 0;
+    return trace_rollouts(r, index);
+}
