@@ -1,0 +1,210 @@
+"""Table II: circle tracking under white noise, with intervals.
+
+    python -m rrnn_opt.validation.tables.table_2 --seeds 200 --points 40 --out DIR
+
+What the paper leaves open is chosen and stated in ``tracking``; the gains of
+every row are found by the one search of ``search``, on other noise.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rrnn_opt.validation.tables import tracking
+from rrnn_opt.validation.tables.cell import Cell, judged
+from rrnn_opt.validation.tables.page import head, spelled
+from rrnn_opt.validation.tables.search import Trial, search
+from rrnn_opt.validation.tables.tracking import CIRCLES, ENTRIES, SIGMAS, Runner
+
+GOALS = (0.0005, 0.0015, 0.005)
+"""What we set out to reach at each sigma, m."""
+
+PROGRAM = "python -m rrnn_opt.validation.tables.table_2"
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """One row of the table.
+
+    Attributes:
+        key: of ``ENTRIES``.
+        trials: of the search, best first.
+        errors: root mean square of each run, (sigmas, circles, seeds), m.
+        limits: share of the runs that kept the arm's limits, by sigma.
+        unsettled: share of the periods in which the network did not come to rest.
+    """
+
+    key: str
+    trials: Sequence[Trial]
+    errors: NDArray[np.float64]
+    limits: tuple[float, ...]
+    unsettled: float
+
+    @property
+    def means(self) -> NDArray[np.float64]:
+        """Mean over circles and seeds, by sigma, m."""
+        return np.asarray(self.errors.mean(axis=(1, 2)))
+
+    def interval(self, sigma: int) -> tuple[float, float]:
+        """95 % interval of the mean: a seed's mean over the circles is one sample."""
+        sample = self.errors[sigma].mean(axis=0)
+        return interval(sample)
+
+
+def interval(sample: NDArray[np.float64]) -> tuple[float, float]:
+    """Student's 95 % interval of a mean; the point itself for one sample."""
+    from scipy.stats import t
+
+    mean, n = float(sample.mean()), sample.size
+    if n < 2:
+        return mean, mean
+    half = float(t.ppf(0.975, n - 1) * sample.std(ddof=1) / np.sqrt(n))
+    return mean - half, mean + half
+
+
+def measure(key: str, *, seeds: int, points: int) -> Result:
+    """Search the gains of a row and run it.
+
+    Args:
+        key: of ``ENTRIES``.
+        seeds: noise seeds 0, 1, ... of each circle and sigma.
+        points: of the search.
+    """
+    entry = ENTRIES[key]
+    trials = search(entry, points=points)
+    runner = Runner(entry, trials[0].gains)
+    errors = np.zeros((len(SIGMAS), len(CIRCLES), seeds))
+    kept, unsettled = np.zeros(len(SIGMAS)), 0
+    for i, sigma in enumerate(SIGMAS):
+        for j, circle in enumerate(CIRCLES):
+            for seed in range(seeds):
+                run = runner.run(circle, sigma, seed)
+                errors[i, j, seed] = run.rms_error_m
+                kept[i] += run.limits_kept
+                unsettled += run.record.unsettled
+    runs = len(CIRCLES) * seeds
+    periods = errors.size * len(run.t)
+    share = tuple((kept / runs).tolist())
+    return Result(key, trials, errors, share, unsettled / periods)
+
+
+def results(*, seeds: int = 4, points: int = 6) -> Iterator[Result]:
+    """All rows, as they are finished; see ``measure``."""
+    for key in ENTRIES:
+        yield measure(key, seeds=seeds, points=points)
+
+
+def cells(
+    found: Sequence[Result] | None = None, *, command: str = PROGRAM
+) -> list[dict[str, Any]]:
+    """The cells in the form of ``rrnn reproduce --json``.
+
+    Args:
+        found: rows; a small run by default.  Rows that the paper has not, have
+            no cells.
+        command: that made them.
+    """
+    rows = list(results()) if found is None else found
+    return [
+        _cell(row, i, command).to_dict()
+        for row in rows
+        for i in range(len(ENTRIES[row.key].paper))
+    ]
+
+
+def _cell(row: Result, sigma: int, command: str) -> Cell:
+    entry = ENTRIES[row.key]
+    paper = entry.paper[sigma]
+    ours, bounds = float(row.means[sigma]), row.interval(sigma)
+    return Cell(
+        table="II",
+        row=entry.label,
+        column=f"sigma = {SIGMAS[sigma]}",
+        paper=paper,
+        ours=ours,
+        interval=bounds,
+        n=row.errors[sigma].size,
+        verdict=judged(paper, ours, bounds, larger_is_better=False),
+        reason=entry.note,
+        command=command,
+    )
+
+
+def best(found: Sequence[Result], sigma: int) -> tuple[Result, Result, bool]:
+    """Our best row, the best rival or paper row, and whether the intervals part.
+
+    Args:
+        found: all rows.
+        sigma: index.
+    """
+
+    def least(ours: bool) -> Result:
+        chosen = [r for r in found if (ENTRIES[r.key].kind == "ours") == ours]
+        return min(chosen, key=lambda r: float(r.means[sigma]))
+
+    mine, other = least(True), least(False)
+    return mine, other, mine.interval(sigma)[1] < other.interval(sigma)[0]
+
+
+def page(found: Sequence[Result], command: str) -> str:
+    """The table in Markdown."""
+    from rrnn_opt.validation.tables.table_2_page import sections
+
+    about = (tracking.__doc__ or "").split("\n", 2)[2].strip()
+    text = about.replace("``CIRCLES``", "the table of circles")
+    return "\n\n".join([head("Table II", command), text, *sections(found)]) + "\n"
+
+
+def document(found: Sequence[Result], command: str) -> Mapping[str, Any]:
+    """Cells and the search, JSON-ready."""
+    return {
+        "cells": cells(found, command=command),
+        "search": {
+            row.key: [
+                {"gains": dict(t.gains), "score_m": t.score}
+                for t in row.trials
+                if np.isfinite(t.score)
+            ]
+            for row in found
+        },
+    }
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run, print the page and write it.
+
+    Args:
+        arguments: of the command line.
+    """
+    parser = argparse.ArgumentParser(prog=PROGRAM, description="Table II.")
+    add = parser.add_argument
+    add("--seeds", type=int, default=4, help="noise seeds of each circle and sigma")
+    add("--points", type=int, default=6, help="of the search of each row's gains")
+    add("--out", type=Path, help="folder of table_2.md and table_2.json")
+    given = parser.parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    command, found = spelled(PROGRAM, words), []
+    for row in results(seeds=given.seeds, points=given.points):
+        found.append(row)
+        print(f"{row.key}: {1e3 * row.means} mm", file=sys.stderr, flush=True)
+    text = page(found, command)
+    print(text)
+    if given.out is not None:
+        given.out.mkdir(parents=True, exist_ok=True)
+        (given.out / "table_2.md").write_text(text, "utf-8")
+        data = json.dumps(document(found, command), indent=1) + "\n"
+        (given.out / "table_2.json").write_text(data, "utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
