@@ -90,7 +90,7 @@ def test_importing_the_package_registers_nothing():
 
 
 @given(seed=st.integers(0, 10_000))
-@settings(max_examples=25, deadline=None, derandomize=True)
+@settings(max_examples=20, deadline=None, derandomize=True)
 def test_random_programmes_have_the_optimum_and_multipliers_of_daqp(seed):
     assert_same(random_qp(seed))
 
@@ -102,7 +102,7 @@ def test_random_programmes_have_the_optimum_and_multipliers_of_daqp(seed):
         {"meq": 0, "mineq": 0},
         {"meq": 3, "mineq": 0, "box": False},
         {"meq": 0, "mineq": 5, "box": False},
-        {"n": 12, "meq": 4, "mineq": 10, "condition": 1e5},
+        {"n": 8, "meq": 3, "mineq": 6, "condition": 1e5},
     ],
     ids=["free", "box", "rows", "inequalities", "large"],
 )
@@ -226,13 +226,13 @@ def test_pink_moves_a_panda_with_it(posture_cost):
         tasks.append(pink.PostureTask(cost=posture_cost))
         tasks[1].set_target(q)
     at_limit = []
-    for _ in range(25):
-        problem = pink.build_ik(configuration, tasks, 0.02)
+    for _ in range(16):
+        problem = pink.build_ik(configuration, tasks, 0.03)
         at_limit.append(qpsolvers.solve_problem(problem, "rrnn").z.max() > 1e-6)
-        ours = pink.solve_ik(configuration, tasks, 0.02, "rrnn")
-        theirs = pink.solve_ik(configuration, tasks, 0.02, "daqp", **EXACT)
+        ours = pink.solve_ik(configuration, tasks, 0.03, "rrnn")
+        theirs = pink.solve_ik(configuration, tasks, 0.03, "daqp", **EXACT)
         np.testing.assert_allclose(ours, theirs, atol=1e-3)
-        configuration.integrate_inplace(ours, 0.02)
+        configuration.integrate_inplace(ours, 0.03)
     assert any(at_limit)
     assert not all(at_limit)
     reached = np.linalg.norm(hand.compute_error(configuration)[:3])
