@@ -144,10 +144,16 @@ def acceleration_range(p: Pieces) -> tuple[Array, Array]:
 
 
 def rounding(p: Pieces) -> tuple[Array, Array, Array]:
-    """Generous bounds of what double rounding did to the three ranges.
+    """Bounds of what double rounding did to the three ranges.
 
-    The subtraction q_{i+1} - q_i is exact or nearly so, hence the errors go
-    with the terms c_k h^k and not with the size of q divided by h^2.
+    Written out in slope, qd_i and qd_{i+1}, the terms of a velocity add up to at
+    most 12 |slope| + 8 |qd_i| + 5 |qd_{i+1}|, those of an acceleration to
+    (18 |slope| + 10 |qd_i| + 8 |qd_{i+1}|) / h, and none passes through more than
+    16 roundings: with |slope|, |qd_i| <= speed below and |qd_{i+1}| = end, at
+    most 448 u speed + 128 u end, u = EPS / 2.  A position is h times a velocity,
+    and q_i.  A root that is off, or was lost because its discriminant vanished
+    by rounding, solves a quadratic whose terms are off by 8 u: the velocity is
+    below 8 u speed between it and the true one, the extreme off by h times it.
 
     Returns:
         Bounds for position, velocity and acceleration, (n-1, nv) each.
@@ -155,5 +161,5 @@ def rounding(p: Pieces) -> tuple[Array, Array, Array]:
     wide = p.h[:, None]
     speed = np.abs(p.c1) + np.abs(p.c2) * wide + np.abs(p.c3) * wide**2
     end = np.abs(p.c1 + wide * (2 * p.c2 + 3 * wide * p.c3))
-    terms = 64 * EPS * (speed + end)
-    return 64 * EPS * np.abs(p.c0) + terms * wide, terms, terms / wide
+    terms = 256 * EPS * (speed + end)
+    return 256 * EPS * np.abs(p.c0) + terms * wide, terms, terms / wide

@@ -110,7 +110,7 @@ def certify_trajectory(
     motion, qdd = read_motion(trajectory, model.nv)
     with np.errstate(all="ignore"):
         scene = read_scene(model, wish, motion)
-        limits, broken = prove_limits(model, motion.t, motion.pieces)
+        limits, broken = prove_limits(model, motion)
         goal = read_goal(model, wish, motion)
         effort = Effort(max_boxes)
         outcome = prove_free(scene.model, scene.targets, scene.errors, motion, effort)
