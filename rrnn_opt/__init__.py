@@ -44,7 +44,7 @@ _ROOMS = (
     "study",
     "validation",
 )
-__all__ = [*_HOME, *_ROOMS]
+__all__ = list(_HOME) + list(_ROOMS)
 __version__ = metadata.version("rrnn_opt")
 
 

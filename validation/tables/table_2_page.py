@@ -48,7 +48,7 @@ def _errors(found: Sequence[Result]) -> str:
 
 
 def _many(row: Result) -> bool:
-    return row.errors.shape[2] > 1
+    return bool(row.errors.shape[2] > 1)
 
 
 def _verdicts(found: Sequence[Result]) -> Iterator[str]:
