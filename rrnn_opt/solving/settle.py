@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike
 from rrnn_opt.dynamics import Dynamics
 from rrnn_opt.errors import InfeasibleQpError, RrnnError
 from rrnn_opt.formulation import Formulation
+from rrnn_opt.networks import LviPdnn
 from rrnn_opt.networks.step_size import settling_step
 from rrnn_opt.solving.network import RestableNetwork, restable
 from rrnn_opt.solving.residual import NOT_JUDGED, Array, Dense, Residual
@@ -58,7 +60,7 @@ class SettleInfo:
 
 
 def settle(
-    dyn: Dynamics,
+    dyn: Dynamics | Formulation,
     *,
     tolerance: float = 1e-8,
     max_steps: int = MAX_STEPS,
@@ -76,9 +78,10 @@ def settle(
     that is told the rates of its data (a ZNN) runs with data that stand still.
 
     Args:
-        dyn: a network made from a formulation.  Whitened rows
-            (``PrimalDual(whiten=True)``) settle in far fewer steps; a rule that
-            carries a paper's name has them only when asked to.
+        dyn: a network made from a formulation; or a formulation, which is
+            settled by ``LviPdnn(whiten=True)``.  Whitened equality rows settle in
+            far fewer steps; a rule that carries a paper's name has them only
+            when asked to.
         tolerance: on the absolute KKT residual, largest component.
         max_steps: Euler steps in all for one choice of the step.
         step: Euler step h, s; None takes half of what is stable, from the
@@ -102,7 +105,7 @@ def settle(
             missing, unknown, of the wrong shape or not finite.
     """
     return settle_at(
-        dyn,
+        default_network(dyn) if isinstance(dyn, Formulation) else dyn,
         params,
         tolerance=tolerance,
         max_steps=max_steps,
@@ -154,6 +157,15 @@ def settle_at(
     if start is not None and best.status is Status.MAX_ITER:
         best = job.insist(network.start(values), h)
     return best.x, _info(best, time.perf_counter() - begin)
+
+
+@lru_cache(maxsize=32)
+def default_network(form: Formulation) -> Dynamics:
+    """The network that settles a formulation when none is given.
+
+    It needs no definite Hessian and no feasible start, and its rows are whitened.
+    """
+    return LviPdnn(whiten=True)(form)
 
 
 def _formulation(dyn: Dynamics) -> Formulation:

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import casadi as ca
 import numpy as np
 import pytest
@@ -215,3 +217,49 @@ def test_a_network_without_a_formulation_is_refused():
 
 def test_top_level_verb():
     assert rr.settle is settle
+
+
+def test_a_formulation_alone_is_settled_over_whitened_rows(form, network, posture):
+    v = np.array([0.1, 0.0, 0.1])
+    x, info = settle(form, q=posture, rd_dot=v)
+    want = truth(form, q=posture, rd_dot=v)
+    np.testing.assert_allclose(x, want.x, atol=1e-7)
+    np.testing.assert_allclose(info.duals["equality"], -want.y, atol=1e-6)
+    _, plain = settle(network, q=posture, rd_dot=v)
+    assert info.steps < plain.steps / 3
+
+
+def test_a_map_runs_by_its_own_step(form, posture):
+    v = np.array([0.3, 0.4, 0.1])
+    x, info = settle(rr.networks.Lvi94()(form), q=posture, rd_dot=v, step=0.3)
+    np.testing.assert_allclose(x, truth(form, q=posture, rd_dot=v).x, atol=1e-7)
+    again, other = settle(rr.networks.Lvi94()(form), q=posture, rd_dot=v)
+    np.testing.assert_array_equal(x, again)
+    assert info.steps == other.steps
+
+
+def test_a_map_that_does_not_settle_is_not_tried_again(form, posture):
+    law, v = rr.networks.Lvi94()(form), np.array([0.3, 0.4, 0.1])
+    x, info = settle(law, q=posture, rd_dot=v, max_steps=7, newton=False)
+    assert x is None
+    assert (info.status, info.steps) == (Status.MAX_ITER, 7)
+
+
+def test_a_network_that_is_told_rates_settles_with_data_that_stand_still(form, posture):
+    free = replace(form, lower=None, upper=None)
+    v = np.array([0.1, 0.0, 0.1])
+    x, info = settle(rr.networks.Znn()(free), q=posture, rd_dot=v)
+    want = qpsolvers.solve_problem(free.qp.at(q=posture, rd_dot=v), solver="quadprog")
+    np.testing.assert_allclose(x, want.x, atol=1e-7)
+    assert info.steps <= 5
+
+
+def test_a_run_begins_where_the_network_says(form, posture):
+    """Zero is outside the bounds here; the network begins at the nearest u."""
+    moved = replace(
+        form, lower=ca.SX.ones(7) / 10, upper=ca.SX.ones(7), equalities=None
+    )
+    law = rr.networks.PrimalDual()(moved)
+    x, info = settle(law, q=posture, rd_dot=np.zeros(3), tolerance=1e-12)
+    np.testing.assert_allclose(x, 0.1)
+    assert info.steps == 0
