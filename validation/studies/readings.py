@@ -1,0 +1,41 @@
+"""Readings of Algorithm 1: what its open choices change.
+
+python -m rrnn_opt.validation.studies.readings --trials 50 --jobs 2 --out DIR
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+from pathlib import Path
+
+from rrnn_opt.planning import PaperRnn
+from rrnn_opt.planning.rollout_settings import Feed, Order, Reading, Region
+from rrnn_opt.planning.settings import PlannerSettings
+from rrnn_opt.report.files import write_text
+from rrnn_opt.validation.studies.searching import run_study, summary
+
+ORDERS: tuple[Order, ...] = ("first", "second")
+SETS: tuple[Reading, ...] = ("transpose", "index")
+REGIONS: tuple[Region, ...] = ("ball", "posture")
+FEEDS: tuple[Feed, ...] = ("contact", "failure")
+VARIANTS: dict[str, PlannerSettings] = {
+    f"{order}-order, (12) by {reading}, {region}, I = {feed}": PaperRnn(
+        order=order, reading=reading, region=region, feed=feed
+    )
+    for order, reading, region, feed in product(ORDERS, SETS, REGIONS, FEEDS)
+}
+"""By the fields of ``PaperRnn`` that change what the print can mean."""
+
+
+def main(argv: Sequence[str] | None = None) -> Path:
+    """Run what is missing, write ``readings.md`` and return its path."""
+    study, rows, made, out = run_study(
+        "readings", VARIANTS, argv, trials=50, budget=300
+    )
+    text = f"# Readings of Algorithm 1\n\n{made}\n\n{summary(rows, study)}\n"
+    return write_text(out / "readings.md", text)
+
+
+if __name__ == "__main__":
+    main()
