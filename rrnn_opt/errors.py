@@ -20,9 +20,7 @@ class ShapeError(RrnnError):
         got: shape that was given.
     """
 
-    def __init__(
-        self, name: str, want: tuple[int, ...], got: tuple[int, ...]
-    ) -> None:
+    def __init__(self, name: str, want: tuple[int, ...], got: tuple[int, ...]) -> None:
         self.name, self.want, self.got = name, want, got
         super().__init__(f"{name}: expected shape {want}, got {got}")
 
