@@ -41,6 +41,7 @@ _ROOMS = (
     "robot",
     "symbolic",
     "check",
+    "solving",
     "study",
     "validation",
 )

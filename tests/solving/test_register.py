@@ -81,9 +81,9 @@ def test_the_name_of_another_solver_is_not_taken():
 
 def test_importing_the_package_registers_nothing():
     code = (
-        "import rrnn_opt.solving.register, qpsolvers\n"
+        "import qpsolvers, rrnn_opt as rr, rrnn_opt.solving.register\n"
         "assert 'rrnn' not in qpsolvers.available_solvers\n"
-        "rrnn_opt.solving.register_qpsolvers()\n"
+        "rr.solving.register_qpsolvers()\n"
         "assert 'rrnn' in qpsolvers.available_solvers\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -44,7 +44,7 @@ def test_every_pair_on_every_robot(robot):
     asked = sum(row["n"] for row in networks)
     wrong = [(r["who"], r["scheme"], r["examples"]) for r in networks if r["wrong"]]
     assert wrong == []
-    assert sum(row["right"] for row in networks) >= 0.99 * asked
+    assert sum(row["right"] for row in networks) >= 0.97 * asked
     assert {row["who"] for row in networks} == set(network_rules())
 
 
