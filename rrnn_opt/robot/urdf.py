@@ -15,6 +15,7 @@ from rrnn_opt.errors import RobotError
 
 LARGEST = 32 * 1024 * 1024  # bytes
 KINDS = ("revolute", "continuous", "prismatic", "fixed")
+LIMITED = ("revolute", "prismatic")
 SIZES = {"sphere": ("radius",), "cylinder": ("radius", "length"), "box": ("size",)}
 
 
@@ -143,9 +144,19 @@ def _joints(root: ET.Element, where: str) -> Iterator[tuple[str, str, str]]:
             known = ", ".join(KINDS)
             message = f"joint '{name}' is {kind}; only {known} joints are supported"
             raise RobotError(where, message)
+        if kind in LIMITED and joint.find("limit") is None:
+            raise RobotError(where, f"joint '{name}' is {kind} but has no <limit>")
+        _check_numbers(joint)
         ends = (joint.find("parent"), joint.find("child"))
         parent, child = (end.attrib["link"] for end in ends if end is not None)
         yield name, parent, child
+
+
+def _check_numbers(joint: ET.Element) -> None:
+    """Where a joint stands and turns must be finite numbers."""
+    for element in (*joint.findall("origin"), *joint.findall("axis")):
+        for field in {"xyz", "rpy"} & set(element.attrib):
+            _floats(element.attrib[field], 3)
 
 
 def _check_tree(

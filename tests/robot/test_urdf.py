@@ -49,6 +49,11 @@ REFUSED = {
     "missing or malformed: not enough": _robot(
         TWO, '<joint name="j" type="fixed"><parent link="a"/></joint>'
     ),
+    "is revolute but has no <limit>": _robot(TWO, TURN.replace("limit", "unlimited")),
+    "'nan 0 0' must be 3 finite": _robot(
+        TWO, _joint("j", "revolute", "a", "b", '<origin xyz="nan 0 0"/>')
+    ),
+    "'0 0 oo' must be|could not convert": _robot(TWO, TURN.replace("0 0 1", "0 0 oo")),
     "must be 1 finite": _shape('<sphere radius="inf"/>'),
     "must be 3 finite": _shape('<box size="1 2"/>'),
     "positive sizes": _shape('<box size="1 2 0"/>'),
