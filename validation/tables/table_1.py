@@ -1,0 +1,258 @@
+"""Table I: every cell decided by a check, beside the paper's word.
+
+    python -m rrnn_opt.validation.tables.table_1 --runs 20 --out DIR
+
+No verdict is written down here: each is what a check of ``checks`` found on
+our model of the row (``models``).
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rrnn_opt.errors import RrnnError
+from rrnn_opt.planning import Problem, plan
+from rrnn_opt.validation.tables import checks
+from rrnn_opt.validation.tables.blocked import blocked, least
+from rrnn_opt.validation.tables.cell import markdown
+from rrnn_opt.validation.tables.checks import Finding, yes
+from rrnn_opt.validation.tables.models import MODELS, Model
+from rrnn_opt.validation.tables.page import head, spelled
+from rrnn_opt.validation.tables.starts import start_problem
+
+PROGRAM = "python -m rrnn_opt.validation.tables.table_1"
+
+SCENE = "window"
+"""Scenario in which completeness is put to the test."""
+
+_ROLLOUTS = 300
+"""Explorations that a planner of a row may make."""
+
+PAPER = {
+    "Model in [43]": "Yes Nonzero No No No No No No",
+    "Model in [44]": "Yes Zero Yes Yes No No No No",
+    "Model in [36]": "Yes Zero Yes Yes Yes Yes No No",
+    "Model in [35]": "Yes Zero Yes Yes Yes Yes No No",
+    "Model in [25]": "Yes Zero No Yes Yes No Yes No",
+    "Model in [26]": "Yes Zero No Yes Yes Yes Yes No",
+    "Proposed": "Yes Zero Yes Yes Yes Yes Yes Yes",
+}
+
+
+_HOW = """\
+* *global convergence*: the network comes to rest from random states; where the
+  scheme measures the position, the tip also reaches fixed, reachable targets from
+  random starts within 30 s, to 1 mm.
+* *theoretical error*: what is left on a circle, started on it and without noise, as
+  the control period goes to zero.
+* *free of error accumulation*: under noise the mean square error of the fourth round
+  is less than twice that of the first.
+* *free of matrix inversion*: no division by data and no root in the graph of scheme
+  and network, and neither declares an inverse.
+* *physical limits*: positions, commanded speeds and accelerations, in motions of 4 s
+  between random postures, feasible or not.
+* *smoothness*: the velocity that the scheme asks for does not jump when it starts
+  off target or a contact comes near; a network that lags smooths a jump over its
+  time constant, which is not asked here.
+* *obstacle avoidance*: the spheres that the scheme is told of keep clear of a ball
+  where the same scheme, not told, goes through it.
+* *planning completeness*: the row's planner solves the window from every start; no
+  number of runs proves completeness, one failure refutes it for that budget."""
+
+
+@dataclass(frozen=True)
+class Mark:
+    """One cell.
+
+    Attributes:
+        row: as the paper names it.
+        column: as the paper names it.
+        paper: its word.
+        ours: what the check found.
+        reason: what it saw.
+    """
+
+    row: str
+    column: str
+    paper: str
+    ours: str
+    reason: str
+
+    @property
+    def verdict(self) -> str:
+        """Whether both agree."""
+        if self.ours == "unknown":
+            return "cannot be reproduced as printed"
+        return "reproduced" if self.ours == self.paper else "not reproduced"
+
+
+def obstacle_avoidance(model: Model, *, runs: int) -> Finding:
+    """Contacts in the programme, and kept where the scheme without them collides."""
+    if not model.avoids:
+        return "No", "nothing in the programme knows of obstacles"
+    cases = blocked(model, runs)
+    gaps = [least(model, case)[0] for case in cases]
+    kept = sum(gap >= 0.0 for gap in gaps)
+    text = f"a ball in the arm's way was cleared in {kept} of {len(cases)} motions"
+    if not cases:
+        return "unknown", "no motion was found in which the ball is in the way"
+    return yes(kept == len(cases)), f"{text}; least clearance {1e3 * min(gaps):.1f} mm"
+
+
+def completeness(model: Model, *, runs: int) -> Finding:
+    """Whether it reaches a target behind an obstacle wherever that can be reached."""
+    if not model.planner:
+        avoids, why = obstacle_avoidance(model, runs=runs)
+        return avoids, why
+    solved = 0
+    for index in range(runs):
+        problem = Problem.from_dict(start_problem(SCENE, index))
+        result = plan(problem, planner=model.planner, max_explorations=_ROLLOUTS)
+        solved += result.solved
+    text = (
+        f"planner '{model.planner}' solved the {SCENE} from {solved} of {runs} starts "
+        f"within {_ROLLOUTS} explorations"
+    )
+    if solved == runs:
+        text += "; a promise for all problems is no measurement"
+    return yes(solved == runs), text
+
+
+def columns(runs: int) -> dict[str, Callable[[Model], Finding]]:
+    """The check of each column, in the paper's order.
+
+    Args:
+        runs: random starts, noise seeds or motions of a check.
+    """
+    few = max(2, runs // 5)
+    return {
+        "global convergence": lambda m: checks.global_convergence(m, runs=runs),
+        "theoretical error": checks.theoretical_error,
+        "free of error accumulation": lambda m: checks.no_accumulation(m, seeds=few),
+        "free of matrix inversion": checks.no_inversion,
+        "physical limits": lambda m: checks.physical_limits(m, runs=runs),
+        "smoothness": checks.smoothness,
+        "obstacle avoidance": lambda m: obstacle_avoidance(m, runs=few),
+        "planning completeness": lambda m: completeness(m, runs=few),
+    }
+
+
+def marks(runs: int = 5, rows: Sequence[Model] = MODELS) -> Iterator[Mark]:
+    """All cells, as they are found.
+
+    Args:
+        runs: see ``columns``.
+        rows: of the table.
+    """
+    for model in rows:
+        words = PAPER[model.row].split()
+        for (column, check), paper in zip(columns(runs).items(), words, strict=True):
+            try:
+                ours, reason = check(model)
+            except RrnnError as error:
+                ours, reason = "unknown", f"the check could not run: {error}"
+            yield Mark(model.row, column, paper, ours, reason)
+
+
+def cells(found: Sequence[Mark] | None = None, *, command: str = PROGRAM) -> list[Any]:
+    """The cells in the form of ``rrnn reproduce --json``.
+
+    Args:
+        found: marks; a small run by default.
+        command: that made them.
+    """
+    return [
+        {
+            "table": "I",
+            "row": m.row,
+            "column": m.column,
+            "paper": m.paper,
+            "ours": m.ours,
+            "verdict": m.verdict,
+            "reason": m.reason,
+            "command": command,
+        }
+        for m in (list(marks()) if found is None else found)
+    ]
+
+
+def page(found: Sequence[Mark], command: str) -> str:
+    """The table and the reason of every cell, in Markdown."""
+    rows = list(dict.fromkeys(m.row for m in found))
+    names = list(dict.fromkeys(m.column for m in found))
+    of = {(m.row, m.column): m for m in found}
+    table = [[r, *[_shown(of[r, c]) for c in names]] for r in rows]
+    differ = [m for m in found if m.ours != m.paper]
+    agree = [m for m in found if m.ours == m.paper]
+    standing = [
+        [m.row, m.scheme.__name__, type(m.network).__name__, m.standing]
+        for m in MODELS
+        if m.row in rows
+    ]
+    return (
+        "\n\n".join(
+            [
+                head("Table I", command),
+                "What a check found on our model of each row; **bold**, with the paper's "
+                f"word, where they differ: {len(differ)} of {len(found)} cells.",
+                _HOW,
+                markdown(["", *names], table),
+                "## What stands in each row",
+                markdown(["row", "scheme", "network", "it is"], standing),
+                "## Where we differ, and why",
+                markdown(
+                    ["row", "column", "paper", "ours", "what was seen"], _lines(differ)
+                ),
+                "## Where we agree",
+                markdown(
+                    ["row", "column", "paper", "ours", "what was seen"], _lines(agree)
+                ),
+            ]
+        )
+        + "\n"
+    )
+
+
+def _shown(mark: Mark) -> str:
+    same = mark.ours == mark.paper
+    return mark.ours if same else f"**{mark.ours}** (paper: {mark.paper})"
+
+
+def _lines(found: Sequence[Mark]) -> list[list[str]]:
+    return [[m.row, m.column, m.paper, m.ours, m.reason] for m in found]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run, print the page and write it.
+
+    Args:
+        arguments: of the command line.
+    """
+    parser = argparse.ArgumentParser(prog=PROGRAM, description="Table I.")
+    add = parser.add_argument
+    add("--runs", type=int, default=5, help="random starts of a check")
+    add("--out", type=Path, help="folder of table_1.md and table_1.json")
+    given = parser.parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    command, found = spelled(PROGRAM, words), []
+    for mark in marks(given.runs):
+        found.append(mark)
+        print(f"{mark.row}, {mark.column}: {mark.ours}", file=sys.stderr, flush=True)
+    text = page(found, command)
+    print(text)
+    if given.out is not None:
+        given.out.mkdir(parents=True, exist_ok=True)
+        (given.out / "table_1.md").write_text(text, "utf-8")
+        data = json.dumps({"cells": cells(found, command=command)}, indent=1) + "\n"
+        (given.out / "table_1.json").write_text(data, "utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
