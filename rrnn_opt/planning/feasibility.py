@@ -51,7 +51,7 @@ def describe(
     other = (
         spheres[contact.other].link
         if contact.is_self
-        else problem.scene.obstacles[contact.other].name
+        else _obstacle_name(problem, contact.other)
     )
     margin = 0.0 if contact.is_self else problem.margin
     clearance = contact.gap + margin
@@ -62,6 +62,12 @@ def describe(
         what = f"{pair} are {clearance:.6g} m apart, less than the margin {margin:g} m"
     data = {"q": q.tolist(), "link": link, "other": other, "clearance": clearance}
     return what, data
+
+
+def _obstacle_name(problem: Problem, solid: int) -> str:
+    """Name of the obstacle that one of the runtime's solids belongs to."""
+    owner = problem.solids.solids.owner[solid]
+    return problem.scene.obstacles[int(owner)].name
 
 
 def blocked(problem: Problem, search: Search, q: Array, name: str) -> Infeasible | None:

@@ -32,6 +32,7 @@ RUNTIME = (
     "rng.h",
     "types.h",
     "memory.c",
+    "broad.c",
     "world.c",
     "slide.c",
     "tree.c",
@@ -233,6 +234,15 @@ def gap_function(kind: str) -> ca.Function:
     )
 
 
+def bounds_function() -> ca.Function:
+    """Distance of a point to a box along the world's axes: ``p, bounds -> d``."""
+    p, bounds = ca.SX.sym("p", 3), ca.SX.sym("bounds", 6)
+    out = ca.fmax(ca.fmax(bounds[:3] - p, p - bounds[3:]), 0)
+    return _function(
+        "k_gap_bounds", {"p": p, "bounds": bounds}, {"d": ca.sqrt(ca.sumsqr(out))}
+    )
+
+
 def emitted(robot: Robot, cell: MemoryCell) -> str:
     """The emitted half of the translation unit: tables and functions."""
     functions = [
@@ -240,6 +250,7 @@ def emitted(robot: Robot, cell: MemoryCell) -> str:
         *row_functions(robot),
         *drive_functions(robot),
         *pair_functions(),
+        bounds_function(),
         *cell_functions(cell),
     ]
     named = [(f, f.name()) for f in functions]

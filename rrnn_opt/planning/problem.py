@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.errors import ProblemError, RobotError
+from rrnn_opt.planning.attached import Attached, attached_from_list, with_attached
 from rrnn_opt.planning.goals import Goal, JointGoal, goal_name, goals_from_data
 from rrnn_opt.planning.reading import read_json
 from rrnn_opt.robot.builtin import BUILTIN
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.scene import fields
+from rrnn_opt.scene.broad import BroadPhase, broad_phase
 from rrnn_opt.scene.reading import scene_from_list
 from rrnn_opt.scene.scene import Scene
 
@@ -39,6 +42,7 @@ class Problem:
         robot_ref: robot as the problem file names it.
         spheres_ref: sphere file as the problem file names it, or "".
         locked: values of joints of a URDF that do not move, rad or m.
+        attached: objects that move with frames of the robot.
         name: for reports, may be empty.
 
     Raises:
@@ -55,6 +59,7 @@ class Problem:
     robot_ref: str = ""
     spheres_ref: str = ""
     locked: Mapping[str, float] = field(default_factory=dict)
+    attached: tuple[Attached, ...] = ()
     name: str = ""
 
     def __post_init__(self) -> None:
@@ -66,12 +71,19 @@ class Problem:
             "robot_ref": self.robot_ref or self.robot.name,
             "locked": dict(self.locked),
         }
-        checked["robot"] = replace(self.robot, tip=checked["frame"])
+        robot = replace(self.robot, tip=checked["frame"])
+        _require_spheres(robot)
+        checked["attached"] = tuple(self.attached)
+        checked["robot"] = with_attached(robot, checked["attached"])
         for key, value in checked.items():
             object.__setattr__(self, key, value)
-        _require_spheres(self.robot)
         _require_inside(self.robot, self.start, "start")
         _require_goals(self.robot, self.goals)
+
+    @cached_property
+    def solids(self) -> BroadPhase:
+        """The scene's solids and the tree over them, for the runtime."""
+        return broad_phase(self.scene)
 
     @staticmethod
     def load(path: str | Path) -> Problem:
@@ -98,13 +110,13 @@ class Problem:
             RobotError: the robot's own files cannot be used.
         """
         given = fields.record(data, "", required=_REQUIRED, optional=_OPTIONAL)
-        _refuse_attached(given.get("attached", []))
         optional = ("name", "frame", "spheres")
         texts = {key: fields.text(given[key], key) for key in optional if key in given}
         locked = _locked(given.get("locked", {}))
         # what is cheap to refuse is refused before a robot is loaded
         goals = goals_from_data(given["goal"])
-        scene = scene_from_list(given.get("obstacles", []))
+        scene = scene_from_list(given.get("obstacles", []), base_dir=base_dir)
+        attached = attached_from_list(given.get("attached", []), base_dir=base_dir)
         fields.vector(given["start"], None, "start")
         ref = fields.text(given["robot"], "robot")
         return Problem(
@@ -117,6 +129,7 @@ class Problem:
             robot_ref=ref,
             spheres_ref=texts.get("spheres", ""),
             locked=locked,
+            attached=attached,
             name=texts.get("name", ""),
         )
 
@@ -132,6 +145,7 @@ class Problem:
             "start": self.start.tolist(),
             "goal": goals[0] if len(goals) == 1 else goals,
             "obstacles": self.scene.to_dict(),
+            "attached": [body.to_dict() for body in self.attached],
             "margin": self.margin,
         }
 
@@ -176,12 +190,6 @@ def _locked(data: object) -> dict[str, float]:
         fields.text(joint, "locked"): fields.number(value, fields.join("locked", joint))
         for joint, value in data.items()
     }
-
-
-def _refuse_attached(data: object) -> None:
-    if data != []:
-        message = "this version does not support attached bodies; leave it out"
-        raise ProblemError("attached", message)
 
 
 def _goals(given: object) -> tuple[Any, ...]:

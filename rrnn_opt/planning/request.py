@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from rrnn_opt.planning.goals import AXES, TipGoal
 from rrnn_opt.planning.problem import Problem
 from rrnn_opt.planning.structs import Request, TipTarget
-from rrnn_opt.scene.distance import PRIMITIVES
 
 Array = NDArray[np.float64]
 
@@ -71,28 +70,36 @@ def pack(
         seed: of the runtime's generator.
         number: of the search with this seed; each draws its own stream.
     """
-    robot, obstacles = problem.robot, problem.scene.obstacles
-    kinds = list(PRIMITIVES)
+    robot, tree = problem.robot, problem.solids
     floats = {
         "lower": robot.limits.lower,
         "upper": robot.limits.upper,
         "sample_lower": sampling_box(problem)[0],
         "sample_upper": sampling_box(problem)[1],
         "start": problem.start,
-        "shape": np.concatenate([o.pack() for o in obstacles] or [np.zeros(16)]),
+        "shape": tree.solids.rows,
+        "node_bounds": tree.bounds,
         "joint_goals": np.concatenate(joints or (np.zeros(1),)),
     }
     arrays = {k: np.ascontiguousarray(v, dtype=np.float64) for k, v in floats.items()}
-    kind = np.array([kinds.index(o.kind) for o in obstacles] or [0], dtype=np.int32)
+    indices = {
+        "kind": tree.solids.kind,
+        "first": tree.solids.first,
+        "node_first": tree.first,
+        "node_size": tree.size,
+    }
+    whole = {k: np.ascontiguousarray(v, dtype=np.int32) for k, v in indices.items()}
     targets = (TipTarget * max(len(tips), 1))(*(tip_target(t) for t in tips))
     struct = Request(
-        **{name: array.ctypes.data for name, array in arrays.items()},
-        kind=kind.ctypes.data,
+        **{name: array.ctypes.data for name, array in {**arrays, **whole}.items()},
         margin=problem.margin,
-        obstacle_count=len(obstacles),
+        obstacle_count=len(tree.solids.kind),
+        flat=tree.flat,
+        nodes=len(tree.size),
+        leaf=tree.leaf,
         joint_goal_count=len(joints),
         tip_goal_count=len(tips),
     )
     struct.tip_goals = ctypes.addressof(targets)
     struct.seed[:] = [int(word) for word in _seed(seed, number)]
-    return PackedRequest(struct, (arrays, kind, targets))
+    return PackedRequest(struct, (arrays, whole, targets))

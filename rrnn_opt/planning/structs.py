@@ -81,6 +81,10 @@ class Request(ct.Structure):
                 "shape",
                 "joint_goals",
                 "tip_goals",
+                "first",
+                "node_first",
+                "node_size",
+                "node_bounds",
             )
         ),
         ("margin", ct.c_double),
@@ -88,7 +92,9 @@ class Request(ct.Structure):
         ("obstacle_count", ct.c_int32),
         ("joint_goal_count", ct.c_int32),
         ("tip_goal_count", ct.c_int32),
-        ("reserved", ct.c_int32),
+        ("flat", ct.c_int32),
+        ("nodes", ct.c_int32),
+        ("leaf", ct.c_int32),
     )
 
 

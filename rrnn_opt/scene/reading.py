@@ -2,28 +2,33 @@
 
 from __future__ import annotations
 
-from typing import get_args
+from pathlib import Path
+from typing import Any, get_args
 
 from rrnn_opt.errors import ProblemError
 from rrnn_opt.scene import fields
-from rrnn_opt.scene.scene import KINDS, Scene
-from rrnn_opt.scene.shapes import Obstacle
+from rrnn_opt.scene.scene import Member, Scene
 
-LATER = ("mesh", "points")
-"""Types of the problem file that this version does not read."""
-
-_CLASSES = {shape.kind: shape for shape in get_args(Obstacle)}
+_CLASSES: dict[str, Any] = {shape.kind: shape for shape in get_args(Member)}
 _REQUIRED = {
     "box": ("size", "position"),
     "cylinder": ("radius", "length", "position"),
     "capsule": ("radius", "length", "position"),
     "sphere": ("radius", "position"),
     "halfspace": ("normal", "offset"),
+    "mesh": ("path",),
+    "points": ("path", "radius"),
 }
-_OPTIONAL = {kind: ("quat_xyzw",) for kind in ("box", "cylinder", "capsule")}
+_OPTIONAL = {
+    **{kind: ("quat_xyzw",) for kind in ("box", "cylinder", "capsule")},
+    "mesh": ("scale", "position", "quat_xyzw", "sha256"),
+    "points": ("sha256",),
+}
 
 
-def scene_from_list(data: object, field: str = "obstacles") -> Scene:
+def scene_from_list(
+    data: object, field: str = "obstacles", *, base_dir: str | Path = "."
+) -> Scene:
     """The scene of a list of obstacles.
 
     Args:
@@ -31,6 +36,7 @@ def scene_from_list(data: object, field: str = "obstacles") -> Scene:
             is called by its type and place, e.g. "box3"; one without
             ``quat_xyzw`` is not rotated.
         field: name of the list, for messages.
+        base_dir: folder at which relative paths of meshes and points start.
 
     Returns:
         The scene.
@@ -40,10 +46,29 @@ def scene_from_list(data: object, field: str = "obstacles") -> Scene:
     """
     if not isinstance(data, list | tuple):
         raise ProblemError(field, f"expected a list, got {fields.shown(data)}")
-    return Scene(tuple(_obstacle(o, f"{field}[{i}]", i) for i, o in enumerate(data)))
+    base = Path(base_dir)
+    return Scene(
+        tuple(
+            obstacle_from_dict(o, f"{field}[{i}]", f"{i}", base_dir=base)
+            for i, o in enumerate(data)
+        )
+    )
 
 
-def _obstacle(data: object, field: str, index: int) -> Obstacle:
+def obstacle_from_dict(
+    data: object, field: str, suffix: str, *, base_dir: Path
+) -> Member:
+    """One obstacle.
+
+    Args:
+        data: the obstacle in the problem file's form.
+        field: its name, for messages.
+        suffix: makes a name of the type where none is given.
+        base_dir: folder at which relative paths start.
+
+    Raises:
+        ProblemError: names the field.
+    """
     if not isinstance(data, dict):
         raise ProblemError(field, f"expected an object, got {fields.shown(data)}")
     kind = _kind(data.get("type"), f"{field}.type")
@@ -54,9 +79,12 @@ def _obstacle(data: object, field: str, index: int) -> Obstacle:
         optional=("name", *_OPTIONAL.get(kind, ())),
     )
     del given["type"]
-    given.setdefault("name", f"{kind}{index}")
+    given.setdefault("name", f"{kind}{suffix}")
+    if "path" in given:
+        path = fields.text(given["path"], f"{field}.path")
+        given["path"] = str((base_dir / path).absolute())
     try:
-        shape: Obstacle = _CLASSES[kind](**given)
+        shape: Member = _CLASSES[kind](**given)
     except ProblemError as error:
         raise ProblemError(f"{field}.{error.field}", error.message) from None
     return shape
@@ -64,12 +92,9 @@ def _obstacle(data: object, field: str, index: int) -> Obstacle:
 
 def _kind(value: object, field: str) -> str:
     if value is None:
-        raise ProblemError(field, f"is missing; known: {', '.join(KINDS)}")
+        raise ProblemError(field, f"is missing; known: {', '.join(_CLASSES)}")
     kind = fields.text(value, field)
-    if kind in LATER:
-        message = f"this version does not support '{kind}' obstacles, only "
-        raise ProblemError(field, message + ", ".join(KINDS))
-    if kind not in KINDS:
+    if kind not in _CLASSES:
         message = f"unknown obstacle {fields.shown(kind)}; "
-        raise ProblemError(field, message + fields.suggestion(kind, KINDS))
+        raise ProblemError(field, message + fields.suggestion(kind, _CLASSES))
     return kind

@@ -11,10 +11,15 @@ from numpy.typing import NDArray
 
 from rrnn_opt.errors import ProblemError
 from rrnn_opt.scene import fields
+from rrnn_opt.scene.mesh import Mesh
+from rrnn_opt.scene.points import Points
 from rrnn_opt.scene.shapes import PACKED, Obstacle
 
 KINDS: tuple[str, ...] = tuple(shape.kind for shape in get_args(Obstacle))
 """Kinds of shapes in the fixed order that packed scenes and emitted code use."""
+
+Member = Obstacle | Mesh | Points
+"""What may stand in a scene: a shape, the hull of a mesh, or a cloud of points."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,22 +33,22 @@ class Scene:
         ProblemError: an entry is not a shape.
     """
 
-    obstacles: tuple[Obstacle, ...] = ()
+    obstacles: tuple[Member, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "obstacles", tuple(self.obstacles))
         for index, obstacle in enumerate(self.obstacles):
-            if not isinstance(obstacle, Obstacle):
+            if not isinstance(obstacle, Member):
                 message = f"expected a shape, got {fields.shown(obstacle)}"
                 raise ProblemError(f"obstacles[{index}]", message)
 
     def __len__(self) -> int:
         return len(self.obstacles)
 
-    def __iter__(self) -> Iterator[Obstacle]:
+    def __iter__(self) -> Iterator[Member]:
         return iter(self.obstacles)
 
-    def of_kind(self, kind: str) -> tuple[Obstacle, ...]:
+    def of_kind(self, kind: str) -> tuple[Member, ...]:
         """The obstacles of one kind, in their order."""
         return tuple(o for o in self.obstacles if o.kind == kind)
 

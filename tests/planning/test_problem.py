@@ -131,6 +131,7 @@ def test_defaults_are_filled_in():
                 "quat_xyzw": [0.0, 0.0, 0.0, 1.0],
             }
         ],
+        "attached": [],
         "margin": 0.0,
     }
 
@@ -196,8 +197,8 @@ REFUSED = [
     (("obstacles", 1, 7), "obstacles[1]", "expected an object"),
     (("obstacles", 0, "type", ...), "obstacles[0].type", "is missing"),
     (("obstacles", 0, "type", "bx"), "obstacles[0].type", "did you mean 'box'"),
-    (("obstacles", 0, "type", "mesh"), "obstacles[0].type", "does not support 'mesh'"),
-    (("obstacles", 0, "type", "points"), "obstacles[0].type", "not support 'points'"),
+    (("obstacles", 0, "type", "mesh"), "obstacles[0].size", "not a known field"),
+    (("obstacles", 0, "type", "points"), "obstacles[0].size", "not a known field"),
     (("obstacles", 0, "size", ...), "obstacles[0].size", "is missing"),
     (("obstacles", 0, "size", 1, 0), "obstacles[0].size[1]", "greater than zero"),
     (("obstacles", 0, "size", 1, 1e300), "obstacles[0].size[1]", "too large"),
@@ -206,7 +207,9 @@ REFUSED = [
     (("obstacles", 3, "quat_xyzw", [0, 0, 0, 1]), "obstacles[3].quat_xyzw", "known"),
     (("obstacles", 4, "normal", [0, 0, 0]), "obstacles[4].normal", "unit length"),
     (("obstacles", 0, "name", 5), "obstacles[0].name", "expected a text"),
-    (("attached", [{"frame": "tip"}]), "attached", "not support"),
+    (("attached", [{"frame": "tip"}]), "attached[0].type", "is missing"),
+    (("attached", [{"type": "sphere"}]), "attached[0].frame", "is missing"),
+    (("attached", {}), "attached", "expected a list"),
     (("margin", -0.1), "margin", "not be negative"),
     (("margin", False), "margin", "expected a number"),
     (("obstacels", []), "obstacels", "did you mean 'obstacles'"),

@@ -6,9 +6,12 @@ typedef struct {
     const double *shape;
     const double *joint_goals;
     const tip_goal_t *tip_goals;
+    const int32_t *first, *node_first, *node_size;
+    const double *node_bounds;
     double margin;
     uint64_t seed[2];
-    int32_t obstacle_count, joint_goal_count, tip_goal_count, reserved;
+    int32_t obstacle_count, joint_goal_count, tip_goal_count;
+    int32_t flat, nodes, leaf;
 } request_t;
 
 typedef struct {
@@ -18,6 +21,20 @@ typedef struct {
     int32_t is_self;
     int32_t reserved;
 } closest_t;
+
+static void world_open(world_t *world, const request_t *request)
+{
+    world->count = request->obstacle_count;
+    world->kind = request->kind;
+    world->first = request->first;
+    world->shape = request->shape;
+    world->flat = request->flat;
+    world->nodes = request->nodes;
+    world->leaf = request->leaf;
+    world->node_first = request->node_first;
+    world->node_size = request->node_size;
+    world->node_bounds = request->node_bounds;
+}
 
 static int start_search(planner_t *planner, const request_t *request)
 {
@@ -36,6 +53,7 @@ RRNN_EXPORT void NAME(free)(planner_t *planner)
 {
     if (planner != NULL) {
         free(planner->world.key);
+        free(planner->world.stamp);
         free(planner->tree[0].nodes);
         free(planner->tree[1].nodes);
         free(planner->pool);
@@ -53,14 +71,13 @@ RRNN_EXPORT planner_t *NAME(create)(const settings_t *settings, const request_t 
     if (planner == NULL) {
         return NULL;
     }
-    const size_t keys = (size_t)request->obstacle_count + 1;
+    const size_t keys = (size_t)request->obstacle_count + (size_t)request->nodes + 1;
     const size_t tips = (size_t)request->tip_goal_count + 1;
     planner->set = *settings;
-    planner->world.count = request->obstacle_count;
-    planner->world.kind = request->kind;
-    planner->world.shape = request->shape;
+    world_open(&planner->world, request);
     planner->world.margin = request->margin;
     planner->world.key = malloc(keys * sizeof(double));
+    planner->world.stamp = calloc(keys, sizeof(uint32_t));
     planner->tips = malloc(tips * sizeof(tip_goal_t));
     planner->tip_count = request->tip_goal_count;
     planner->activity = settings->coin >= 0.0 ? settings->coin : 0.0;
@@ -70,7 +87,8 @@ RRNN_EXPORT planner_t *NAME(create)(const settings_t *settings, const request_t 
     memcpy(planner->sample_lower, request->sample_lower, sizeof planner->lower);
     memcpy(planner->sample_upper, request->sample_upper, sizeof planner->upper);
     rng_seed(&planner->rng, request->seed);
-    if (planner->world.key == NULL || planner->tips == NULL) {
+    if (planner->world.key == NULL || planner->world.stamp == NULL ||
+        planner->tips == NULL) {
         NAME(free)(planner);
         return NULL;
     }
@@ -117,7 +135,7 @@ RRNN_EXPORT int32_t NAME(closest)(planner_t *planner, const double *q, double ra
     pose_t pose;
     pose_at(q, &pose);
     world_reset(&planner->world);
-    const int32_t complete = world_near(&planner->world, &pose, radius);
+    const int32_t complete = world_near_within(&planner->world, &pose, &radius);
     *out = (closest_t){1e300, -1, -1, 0, 0};
     for (int32_t p = 0; p < planner->world.near_count; p++) {
         const near_t *pair = &planner->world.near[p];

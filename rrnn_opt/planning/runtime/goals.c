@@ -54,12 +54,12 @@ static int is_free(planner_t *planner, const double *q)
     pose_t pose;
     const double none[NV] = {0};
     pose_at(q, &pose);
+    double radius = planner->set.max_step;
     world_reset(&planner->world);
-    if (!world_near(&planner->world, &pose, planner->set.max_step)) {
+    if (!world_near_within(&planner->world, &pose, &radius)) {
         return 0;
     }
-    return world_certify(&planner->world, &pose, none, planner->set.max_step,
-                         planner->set.slack);
+    return world_certify(&planner->world, &pose, none, radius, planner->set.slack);
 }
 
 /* One more goal posture, from `seed` (NULL: a random posture). */

@@ -134,17 +134,23 @@ static int32_t project(planner_t *planner, const double *q, const pose_t *pose,
     return count;
 }
 
-/* A certified step towards the wish, which is halved until the proof holds.
+/* A certified step towards the wish, which is cut at the radius of the near
+ * pairs and halved until the proof holds.
  * Returns the number of rows, or -1 when no step above min_step is proved. */
 static int32_t certified_step(planner_t *planner, const double *q,
-                              const pose_t *pose, double *w, double *length,
-                              double *u)
+                              const pose_t *pose, double sight, double *w,
+                              double *length, double *u)
 {
     const settings_t *set = &planner->set;
     double wish = norm_of(w);
+    for (int32_t k = 0; k < NV && wish > sight; k++) {
+        w[k] *= sight / wish;
+    }
+    wish = wish > sight ? sight : wish;
+    *length = *length > sight ? sight : *length;
     for (;;) {
         const int32_t rows = project(planner, q, pose, w, *length, u);
-        if (world_certify(&planner->world, pose, u, set->max_step, set->slack)) {
+        if (world_certify(&planner->world, pose, u, sight, set->slack)) {
             return rows;
         }
         wish *= 0.5;
@@ -204,10 +210,11 @@ static slide_end_t slide(planner_t *planner, const double *from,
             }
             mark = left;
         }
-        if (!world_near(&planner->world, &pose, set->max_step)) {
+        double sight = set->max_step;
+        if (!world_near_within(&planner->world, &pose, &sight)) {
             return EXHAUSTED;
         }
-        const int32_t rows = certified_step(planner, q, &pose, w, &length, u);
+        const int32_t rows = certified_step(planner, q, &pose, sight, w, &length, u);
         planner->steps++;
         if (rows < 0) {
             return STALLED;

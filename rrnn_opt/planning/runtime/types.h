@@ -10,7 +10,8 @@
 #include <time.h>
 
 #define SHAPE 16
-#define NEAR_MAX 2048
+#define NEAR_MAX 4096
+#define RADIUS_LEAST 1e-6 /* rad, no shorter look around is tried */
 #define ROW_MAX 32
 #define PASS_MAX 8       /* rows added a pass, at most */
 
@@ -65,11 +66,14 @@ typedef struct {
 } near_t;
 
 typedef struct {
-    int32_t count;        /* obstacles */
-    const int32_t *kind;
-    const double *shape;
+    int32_t count;        /* solids; see broad.c for the tree over them */
+    int32_t flat, nodes, leaf;
+    const int32_t *kind, *first, *node_first, *node_size;
+    const double *shape, *node_bounds;
+    uint32_t *stamp, epoch;
+    int32_t shortened;    /* keys are those of a shorter radius */
     double margin;        /* m, promised clearance from obstacles */
-    double *key;          /* an obstacle is out of reach while key > way */
+    double *key;          /* a solid is out of reach while key > way */
     double group_key[NG + 1];
     double way;           /* m, longest way of a sphere since the last reset */
     near_t near[NEAR_MAX];

@@ -17,9 +17,8 @@ static void center_of(const pose_t *pose, int32_t i, double *p)
 static void world_reset(world_t *world)
 {
     world->way = 0.0;
-    for (int32_t o = 0; o < world->count; o++) {
-        world->key[o] = -1.0;
-    }
+    world->epoch++;
+    world->shortened = 0;
     for (int32_t g = 0; g < NG; g++) {
         world->group_key[g] = -1.0;
     }
@@ -42,34 +41,12 @@ static near_t *world_add(world_t *world, int32_t sphere, int32_t other,
     return pair;
 }
 
-/* Least entry, in eight lanes that vectorise. */
-static double least_of(const double *values, int32_t count)
-{
-    double lanes[8], least = 1e300;
-    int32_t i = 0;
-    for (int32_t k = 0; k < 8; k++) {
-        lanes[k] = 1e300;
-    }
-    for (; i + 8 <= count; i += 8) {
-        for (int32_t k = 0; k < 8; k++) {
-            lanes[k] = values[i + k] < lanes[k] ? values[i + k] : lanes[k];
-        }
-    }
-    for (; i < count; i++) {
-        least = values[i] < least ? values[i] : least;
-    }
-    for (int32_t k = 0; k < 8; k++) {
-        least = lanes[k] < least ? lanes[k] : least;
-    }
-    return least;
-}
-
 /* Adds the spheres near obstacle o; 0 when the list overflows. */
 static int world_obstacle(world_t *world, const pose_t *pose, int32_t o,
                           double radius)
 {
     const int32_t kind = world->kind[o];
-    const double *shape = world->shape + SHAPE * o;
+    const double *shape = world->shape + SHAPE * world->first[o];
     double distance[NS], spare[NS];
     k_gaps(kind, shape, pose->centers, distance);
     for (int32_t i = 0; i < NS; i++) {
@@ -88,7 +65,7 @@ static int world_obstacle(world_t *world, const pose_t *pose, int32_t o,
             return 0;
         }
     }
-    world->key[o] = world->way + least;
+    world_key(world, o, least);
     return 1;
 }
 
@@ -125,9 +102,12 @@ static int world_group(world_t *world, const pose_t *pose, int32_t g, double rad
  * Returns 0 when the list overflows: then nothing is proved. */
 static int world_near(world_t *world, const pose_t *pose, double radius)
 {
+    broad_t walk;
+    int32_t o;
     world->near_count = 0;
-    for (int32_t o = 0; o < world->count; o++) {
-        if (world->key[o] <= world->way && !world_obstacle(world, pose, o, radius)) {
+    broad_begin(world, &walk);
+    while ((o = broad_next(world, pose, radius, &walk)) >= 0) {
+        if (!world_far(world, o) && !world_obstacle(world, pose, o, radius)) {
             return 0;
         }
     }
@@ -140,12 +120,34 @@ static int world_near(world_t *world, const pose_t *pose, double radius)
     return 1;
 }
 
+/* As world_near, with the radius halved until the list holds all pairs. */
+static int world_near_within(world_t *world, const pose_t *pose, double *radius)
+{
+    if (world->shortened) {
+        world_reset(world);
+    }
+    while (!world_near(world, pose, *radius)) {
+        *radius *= 0.5;
+        world_reset(world);
+        world->shortened = 1;  /* keys hold for this radius only */
+        if (*radius < RADIUS_LEAST) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 /* Does a pair break its promised clearance?  Stops at the first that does. */
-static int world_hit(const world_t *world, const pose_t *pose)
+static int world_hit(world_t *world, const pose_t *pose)
 {
     double gap[NS + NP];
-    for (int32_t o = 0; o < world->count; o++) {
-        k_gaps(world->kind[o], world->shape + SHAPE * o, pose->centers, gap);
+    broad_t walk;
+    int32_t o;
+    world_reset(world);
+    broad_begin(world, &walk);
+    while ((o = broad_next(world, pose, 0.0, &walk)) >= 0) {
+        k_gaps(world->kind[o], world->shape + SHAPE * world->first[o], pose->centers,
+               gap);
         for (int32_t i = 0; i < NS; i++) {
             gap[i] = gap[i] - t_radius[i] - world->margin + t_idle[i];
         }
