@@ -37,12 +37,15 @@ class _Side(NamedTuple):
     error: Array
 
 
-def prove_limits(model: Model, motion: Motion) -> tuple[str, dict[str, Any] | None]:
+def prove_limits(
+    model: Model, motion: Motion, *, exact: bool = False
+) -> tuple[str, dict[str, Any] | None]:
     """Whether position, velocity and acceleration limits hold at all times.
 
     Args:
         model: the robot.
         motion: rows and cubics.
+        exact: leave nothing to doubles.
 
     Returns:
         Verdict, and {"kind", "coordinate", "time", "value", "limit"} of the
@@ -51,7 +54,7 @@ def prove_limits(model: Model, motion: Motion) -> tuple[str, dict[str, Any] | No
     for side in _sides(model, motion):
         allowed = side.limit + TOLERANCE * np.maximum(1.0, np.abs(side.limit))
         error = side.error + 1e-15 * np.abs(allowed)
-        kept = (side.value + error <= allowed) | np.isinf(side.limit)
+        kept = (side.value + error <= allowed) & (not exact) | np.isinf(side.limit)
         for piece, k in np.argwhere(~kept):
             if _broken(side, motion, int(piece), int(k), float(allowed[k])):
                 return REFUTED, _witness(side, motion, int(piece), int(k))

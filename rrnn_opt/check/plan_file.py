@@ -61,11 +61,12 @@ class PlanCheck:
         }
 
 
-def check_plan(document: Any) -> PlanCheck:
+def check_plan(document: Any, *, exact: bool = False) -> PlanCheck:
     """Derive the verdicts of a plan anew from its robot, problem and trajectory.
 
     Args:
         document: a plan result, as read from JSON.
+        exact: prove every interval again in ball arithmetic; takes seconds.
 
     Raises:
         DocumentError: it is not a plan result, or is malformed.
@@ -81,7 +82,8 @@ def check_plan(document: Any) -> PlanCheck:
     for key in ("start", "goal", "obstacles"):
         if problem.get(key) is None:
             raise DocumentError(f"problem.{key}", "is missing")
-    found = certify_trajectory(get(plan, "robot", ""), problem, plan["trajectory"])
+    robot, rows = get(plan, "robot", ""), plan["trajectory"]
+    found = certify_trajectory(robot, problem, rows, exact=exact)
     stated = plan.get("certificate")
     claims = {} if stated is None else reading.mapping(stated, "certificate")
     return PlanCheck(status, found, _disagreements(status, claims, found))

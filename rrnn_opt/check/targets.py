@@ -82,7 +82,7 @@ class Finer:
         """Rows (box, pair) of the finer target for rows of the coarse one."""
         sizes = self.sizes[pair]
         ends = np.cumsum(sizes)
-        inner = np.arange(ends[-1]) - np.repeat(ends - sizes, sizes)
+        inner = np.arange(int(sizes.sum())) - np.repeat(ends - sizes, sizes)
         return (
             np.repeat(box, sizes),
             self.pairs[np.repeat(self.first[pair], sizes) + inner],

@@ -7,7 +7,7 @@ Hermite polynomial between rows.  It knows nothing of how the rows were made.
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ import numpy as np
 from rrnn_opt.check import hermite, reading
 from rrnn_opt.check.collision import (
     PROVED,
+    UNKNOWN,
     Effort,
     Motion,
     Outcome,
@@ -25,6 +26,7 @@ from rrnn_opt.check.inputs import read_motion, read_scene
 from rrnn_opt.check.limits import prove_limits
 from rrnn_opt.check.model import Model, read_model
 from rrnn_opt.check.reading import Array
+from rrnn_opt.check.scene import Scene
 from rrnn_opt.errors import DocumentError
 
 METHOD = (
@@ -32,6 +34,7 @@ METHOD = (
     "second-order motion bound with subdivision in time for collisions; "
     "rounding bounded by running error analysis (rounding_bound_m)"
 )
+EXACTLY = "; every interval proved again in ball arithmetic, limits in rationals"
 START_TOLERANCE = 1e-9
 MAX_BOXES = 200_000
 
@@ -91,6 +94,7 @@ def certify_trajectory(
     trajectory: Any,
     *,
     max_boxes: int = MAX_BOXES,
+    exact: bool = False,
 ) -> TrajectoryCertificate:
     """Judge a trajectory for all times, not at samples.
 
@@ -100,6 +104,8 @@ def certify_trajectory(
             is absent is not asked for.
         trajectory: "t", "q", "qd" and, if present, "qdd".
         max_boxes: time boxes to look at before answering UNKNOWN.
+        exact: prove every interval again in ball arithmetic, and limits in
+            rational arithmetic; takes seconds.
 
     Raises:
         DocumentError: something in the three documents is malformed.
@@ -110,13 +116,30 @@ def certify_trajectory(
     motion, qdd = read_motion(trajectory, model.nv)
     with np.errstate(all="ignore"):
         scene = read_scene(model, wish, motion)
-        limits, broken = prove_limits(model, motion)
+        limits, broken = prove_limits(model, motion, exact=exact)
         goal = read_goal(model, wish, motion)
-        effort = Effort(max_boxes)
+        effort = Effort(max_boxes, keep_leaves=exact)
         outcome = prove_free(scene.model, scene.targets, scene.errors, motion, effort)
         faults = _faults(model, wish, motion, trajectory.get("duration"), qdd)
-    bound = scene.rounding_bound
-    return _certificate(limits, broken, goal, outcome, faults, bound, began)
+    if exact:
+        outcome = _exactly(robot, wish, scene, motion, outcome)
+    result = _certificate(limits, broken, goal, outcome, faults, scene, began)
+    return replace(result, method=METHOD + EXACTLY) if exact else result
+
+
+def _exactly(
+    robot: Any, problem: Any, scene: Scene, motion: Motion, outcome: Outcome
+) -> Outcome:
+    """The outcome, if balls confirm every row of its proof."""
+    from rrnn_opt.check.ball_scene import BallScene
+    from rrnn_opt.check.exact import recheck
+
+    if outcome.verdict != PROVED or outcome.leaves is None:
+        return outcome
+    again = recheck(BallScene(robot, problem, scene, motion), outcome.leaves)
+    if again.proved:
+        return outcome
+    return replace(outcome, verdict=UNKNOWN, clearance=None)
 
 
 def _certificate(
@@ -125,9 +148,10 @@ def _certificate(
     goal: GoalError | None,
     outcome: Outcome,
     faults: tuple[str, ...],
-    bound: float,
+    scene: Scene,
     began: float,
 ) -> TrajectoryCertificate:
+    bound = scene.rounding_bound
     return TrajectoryCertificate(
         collision_free=outcome.verdict,
         limits=limits,
