@@ -15,6 +15,7 @@ import flint
 import numpy as np
 
 from rrnn_opt.check.model import Model
+from rrnn_opt.errors import DocumentError
 
 Ball = Any  # flint.arb: python-flint has no usable stubs
 Vector = list[Ball]
@@ -173,10 +174,16 @@ class BallSolid:
 
     Args:
         entry: of "obstacles".
+
+    Raises:
+        DocumentError: its type has no support function here.
     """
 
     def __init__(self, entry: Any) -> None:
         self.kind = entry["type"]
+        if self.kind not in ("box", "cylinder", "capsule", "sphere", "halfspace"):
+            known = f"type '{self.kind}' cannot be judged in ball arithmetic"
+            raise DocumentError("problem.obstacles", known)
         self.entry = entry
         if self.kind == "halfspace":
             return

@@ -223,7 +223,8 @@ def _sift(
     for item in work:
         need = max(item.target.required + item.target.slack, wish)
         travel = item.target.travel(now, item.box, item.pair)
-        item.shown = np.maximum(item.shown, item.d - travel)
+        floor = item.target.floor(now, item.box, item.pair, item.d)
+        item.shown = np.maximum(item.shown, floor - travel)
         _settle(item, batch, need, ledger)
         if len(item.box):
             sharp = item.target.sharp(now, item.box, item.pair)

@@ -52,6 +52,9 @@ class Target(Protocol):
     def distance(self, poses: Poses, box: Index, pair: Index) -> Array:
         """Signed distance at the middle, (M,), m."""
 
+    def floor(self, poses: Poses, box: Index, pair: Index, d: Array) -> Array:
+        """Lower bound of the distance at the middle, d or less, (M,), m."""
+
     def sharp(self, poses: Poses, box: Index, pair: Index) -> Array:
         """Lower bound of the distance over the whole box, (M,), m."""
 
@@ -124,6 +127,15 @@ class ObstacleTarget:
         d = signed_distance(self.obstacle, poses.points(box, sphere))
         return d - self.model.radii[sphere]
 
+    def floor(self, poses: Poses, box: Index, pair: Index, d: Array) -> Array:
+        """See :class:`Target`; triangles of a mesh refute, its points prove."""
+        if self.obstacle.kind != "mesh":
+            return d
+        sphere = self.movers.spheres[pair]
+        points = poses.points(box, sphere)
+        free = gap(self.obstacle, points, normals(self.obstacle, points))
+        return np.minimum(d, free - self.model.radii[sphere])
+
     def sharp(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""
         sphere = self.movers.spheres[pair]
@@ -179,6 +191,10 @@ class SelfTarget:
         apart = poses.points(box, i) - poses.points(box, j)
         far: Array = np.sqrt(np.einsum("ij,ij->i", apart, apart))
         return far - (self.model.radii[i] + self.model.radii[j])
+
+    def floor(self, poses: Poses, box: Index, pair: Index, d: Array) -> Array:
+        """See :class:`Target`."""
+        return d
 
     def sharp(self, poses: Poses, box: Index, pair: Index) -> Array:
         """See :class:`Target`."""

@@ -15,20 +15,29 @@ HELP = "judge a plan result or a claim's certificate again"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's arguments."""
     parser.add_argument("file", metavar="FILE.json", help="plan.json or a certificate")
+    parser.add_argument(
+        "--exact",
+        action="store_true",
+        help="prove every interval of a plan again in ball arithmetic (seconds)",
+    )
 
 
 def run(args: argparse.Namespace, out: Output) -> int:
     """0 it holds, 1 it does not hold or is UNKNOWN."""
     document = read(args.file)
-    answer = judged(document)
+    answer = judged(document, exact=args.exact)
     out.document(answer)
     for line in _lines(answer):
         out.say(line)
     return 0 if answer["holds"] else 1
 
 
-def judged(document: dict[str, Any]) -> dict[str, Any]:
+def judged(document: dict[str, Any], *, exact: bool = False) -> dict[str, Any]:
     """The checker's answer as plain data; ``holds`` is among it.
+
+    Args:
+        document: a plan result or a certificate.
+        exact: prove a plan's intervals again in ball arithmetic.
 
     Raises:
         DocumentError: it is neither a plan result nor a certificate.
@@ -38,7 +47,7 @@ def judged(document: dict[str, Any]) -> dict[str, Any]:
 
     if document.get("kind") == KIND:
         return {"kind": "claim", **check_certificate(document).to_dict()}
-    return check_plan(document).to_dict()
+    return check_plan(document, exact=exact).to_dict()
 
 
 def read(path: str) -> dict[str, Any]:
