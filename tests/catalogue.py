@@ -88,7 +88,12 @@ def accepted(robot, rule, chosen):
 
 @dataclass(frozen=True, eq=False)
 class Point:
-    """Parameter values and what DAQP makes of them, in our signs."""
+    """Parameter values and what DAQP makes of them, in our signs.
+
+    ``unique``: the active rows fix their multipliers.  ``mild``: no singular value
+    of the active rows over the free coordinates is small, none of P small or
+    large, so that every network must get there.  ``active``: some bound or row is.
+    """
 
     given: dict
     x: np.ndarray
@@ -96,6 +101,7 @@ class Point:
     mu: np.ndarray
     box: np.ndarray
     unique: bool
+    mild: bool
     active: bool
 
 
@@ -142,6 +148,7 @@ def solve(declared, given):
         mu=_flat(best.z),
         box=_flat(best.z_box) if declared.qp.bounded else np.zeros(n),
         unique=_independent(problem, near, tight),
+        mild=_mild(problem, near, tight),
         active=bool(near.any() or tight.any()),
     )
 
@@ -150,12 +157,24 @@ def _flat(value):
     return np.zeros(0) if value is None else np.asarray(value).ravel()
 
 
-def _independent(problem, near, tight):
-    """Whether the active rows and bounds fix their multipliers well."""
-    rows = [np.eye(near.size)[near]]
+def _active_rows(problem, tight):
+    rows = [np.zeros((0, problem.q.size))]
     rows += [problem.A] if problem.A is not None else []
     rows += [problem.G[tight]] if problem.G is not None else []
-    stacked = np.vstack(rows)
+    return np.vstack(rows)
+
+
+def _independent(problem, near, tight):
+    """Whether the active rows and bounds fix their multipliers well."""
+    stacked = np.vstack([np.eye(near.size)[near], _active_rows(problem, tight)])
     if not 0 < len(stacked) <= near.size:
         return len(stacked) == 0
     return bool(np.linalg.svd(stacked, compute_uv=False)[-1] > 1e-2)
+
+
+def _mild(problem, near, tight):
+    curvature = np.linalg.eigvalsh(problem.P)
+    values = np.linalg.svd(_active_rows(problem, tight)[:, ~near], compute_uv=False)
+    weak = values[values > 1e-9]  # a zero row of a planar arm asks for nothing
+    level = curvature[0] > 0.03 and curvature[-1] < 30.0
+    return bool(level and weak.min(initial=1.0) > 0.03)

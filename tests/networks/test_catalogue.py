@@ -157,27 +157,33 @@ def test_its_equilibrium_reads_as_the_solvers_optimum(rule, pairs):
 
 
 def test_it_settles_at_the_solvers_optimum(rule, settling):
+    """And where it does not, it says so: no answer is ever wrong."""
     robot, found = settling
-    active, bounded = 0, False
+    mild = active = total = 0
     for scheme, law in found:
-        bounded = bounded or law.formulation.qp.bounded
         for point in points(robot, scheme):
             x, info = rr.settle(law, **point.given)
-            assert x is not None, f"{scheme}: {info.status}"
-            assert info.kkt_residual <= 1e-5, f"{scheme}"
-            np.testing.assert_allclose(x, point.x, atol=1e-5, err_msg=str(scheme))
+            total, mild = total + 1, mild + point.mild
             active += point.active
-            if not point.unique:
+            if x is None:
+                assert not point.mild, f"{scheme}: {info.status}"
                 continue
-            for name, want in (
-                ("equality", point.lam),
-                ("inequality", point.mu),
-                ("box", point.box),
-            ):
-                got = info.duals[name]
-                where = f"{scheme}: {name}"
-                np.testing.assert_allclose(got, want, atol=1e-4, err_msg=where)
-    assert active or not bounded, "no point with an active bound"
+            agrees(scheme, point, x, info)
+    assert mild > total / 4
+    assert active > total / 20 or not any(s.formulation.qp.bounded for _, s in found)
+
+
+def agrees(scheme, point, x, info):
+    """To 1e-6 and 1e-5 where the point is mild, else by the KKT residual."""
+    if not point.mild:
+        assert info.kkt_residual <= 1e-5, f"{scheme}"
+        np.testing.assert_allclose(x, point.x, atol=1e-3, err_msg=f"{scheme}")
+        return
+    np.testing.assert_allclose(x, point.x, atol=1e-6, err_msg=f"{scheme}")
+    duals = {"equality": point.lam, "inequality": point.mu, "box": point.box}
+    for name, want in duals.items() if point.unique else ():
+        where = f"{scheme}: {name}"
+        np.testing.assert_allclose(info.duals[name], want, atol=1e-5, err_msg=where)
 
 
 def law_of(law):
@@ -226,7 +232,8 @@ def test_the_slope_of_its_residual_against_finite_differences(rule, pairs):
         for i, h in enumerate(1e-7 * np.eye(state.size)):
             rise = residual(state + h, *rest) - residual(state - h, *rest)
             gap = np.asarray(rise).ravel() / 2e-7 - exact[:, i]
-            assert np.abs(gap).max() < 1e-5, f"{scheme}"
+            scale = 1.0 + np.abs(exact[:, i]).max()  # P^-1 may be large
+            assert np.abs(gap).max() < 1e-5 * scale, f"{scheme}"
 
 
 def test_told_the_rates_its_error_obeys_its_law_while_all_data_move(rule, pairs):
