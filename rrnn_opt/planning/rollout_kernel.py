@@ -5,6 +5,7 @@ from __future__ import annotations
 import pathlib
 
 import casadi as ca
+import numpy as np
 
 from rrnn_opt import emit
 from rrnn_opt.formulations.acceleration_limits import acceleration_bounds
@@ -13,8 +14,8 @@ from rrnn_opt.formulations.signs import Band
 from rrnn_opt.formulations.slide import row
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.kernel import source
-from rrnn_opt.planning.rollout_settings import PaperRnn, RolloutSettings, SingleRollout
 from rrnn_opt.robot import Kinematics, Robot
+from rrnn_opt.robot.bound import ancestor_mask
 
 RUNTIME = ("rollout.c", "rollout_schemes.c", "rollout_search.c", "rollout_api.c")
 
@@ -30,10 +31,11 @@ def _tip_rows(robot: Robot, axes: ca.SX, origins: ca.SX, tip: ca.SX) -> ca.SX:
 
 def sign_functions(nv: int) -> list[ca.Function]:
     """Sign set (12) of one contact, and the drive that the network projects."""
-    escape, lower, upper, pull = (
-        ca.SX.sym(name, nv) for name in ("escape", "lower", "upper", "pull")
+    escape, moves, lower, upper, pull = (
+        ca.SX.sym(name, nv) for name in ("escape", "moves", "lower", "upper", "pull")
     )
-    back, held = escape < 0, escape > 0
+    back = escape < 0
+    held = moves * (escape >= 0)
     cut = [
         ca.if_else(held, ca.fmax(lower, 0), lower),
         ca.if_else(back, ca.fmin(upper, 0), upper),
@@ -42,9 +44,9 @@ def sign_functions(nv: int) -> list[ca.Function]:
     return [
         ca.Function(
             "k_sign_set",
-            [escape, *box],
+            [escape, moves, *box],
             cut,
-            ["escape", "lower", "upper"],
+            ["escape", "moves", "lower", "upper"],
             ["least", "most"],
         ),
         ca.Function(
@@ -99,12 +101,14 @@ def network_functions(robot: Robot, c1: float, c2: float) -> list[ca.Function]:
     ]
 
 
-def scheme_functions(robot: Robot, band: Band) -> list[ca.Function]:
+def scheme_functions(robot: Robot) -> list[ca.Function]:
     """Attraction, contact bands and accelerations of the comparison schemes."""
     nv = robot.nv
     kin = Kinematics(robot)
     qd, tip, target = ca.SX.sym("qd", nv), ca.SX.sym("tip", 3), ca.SX.sym("target", 3)
     gain, speed, gap = ca.SX.sym("gain"), ca.SX.sym("speed"), ca.SX.sym("gap")
+    inner, outer = ca.SX.sym("inner"), ca.SX.sym("outer")
+    unit, place = Band(0.0, 1.0), (gap - inner) / (outer - inner)
     error = target - tip
     length = ca.sqrt(ca.sumsqr(error))
     lower, upper = acceleration_bounds(kin.q, qd, robot.limits)
@@ -124,9 +128,9 @@ def scheme_functions(robot: Robot, band: Band) -> list[ca.Function]:
         ),
         ca.Function(
             "k_band",
-            [gap],
-            [band.share(gap), band.slope(gap)],
-            ["gap"],
+            [gap, inner, outer],
+            [unit.share(place), unit.slope(place) / (outer - inner)],
+            ["gap", "inner", "outer"],
             ["share", "slope"],
         ),
         ca.Function(
@@ -146,23 +150,32 @@ def scheme_functions(robot: Robot, band: Band) -> list[ca.Function]:
     ]
 
 
-def functions(robot: Robot, settings: RolloutSettings) -> list[ca.Function]:
-    """Every emitted formula of the rollouts."""
-    single = settings if isinstance(settings, SingleRollout) else SingleRollout()
-    return [
+def moving_table(robot: Robot) -> str:
+    """``t_turns``: which coordinate moves which sphere, (ns, nv), as C text."""
+    source, mask = robot.tree.source, ancestor_mask(robot)
+    turns = np.zeros((len(robot.spheres), robot.nv))
+    for k in range(robot.tree.nj):
+        turns[mask[k], int(source[k])] = 1.0
+    entries = ", ".join(f"{value:.1f}" for value in turns.ravel())
+    return f"static const double t_turns[{turns.size}] = {{{entries}}};\n"
+
+
+def rollout_source(robot: Robot, cell: MemoryCell, c1: float, c2: float) -> str:
+    """The planner's translation unit with the rollouts behind it, C99.
+
+    Args:
+        robot: the robot.
+        cell: memory cell (14).
+        c1: of (10), 1/s.
+        c2: of (10), 1/s.
+    """
+    functions = [
         *sign_functions(robot.nv),
-        *network_functions(robot, settings.c1, settings.c2),
-        *scheme_functions(robot, Band(single.inner, single.outer)),
+        *network_functions(robot, c1, c2),
+        *scheme_functions(robot),
     ]
-
-
-def rollout_source(
-    robot: Robot, cell: MemoryCell, settings: RolloutSettings | None = None
-) -> str:
-    """The planner's translation unit with the rollouts behind it, C99."""
-    texts = [
-        emit.c_function(f, f.name()) for f in functions(robot, settings or PaperRnn())
-    ]
+    texts = [emit.c_function(f, f.name()) for f in functions]
     room = pathlib.Path(__file__).with_name("runtime")
     runtime = [(room / name).read_text("utf-8") for name in RUNTIME]
-    return "\n".join([source(robot, cell), *texts, *runtime])
+    head = [source(robot, cell), moving_table(robot)]
+    return "\n".join([*head, *texts, *runtime])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes as ct
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from rrnn_opt import emit
 from rrnn_opt.errors import ProblemError, RrnnError
+from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.feasibility import OpenGoals
 from rrnn_opt.planning.rollout_kernel import rollout_source
 from rrnn_opt.planning.rollout_settings import PaperRnn, RolloutSettings
@@ -30,32 +31,25 @@ CHORD = 0.1
 class RolloutRuntime(Runtime):
     """The compiled planner with the printed schemes' rollouts."""
 
-    def __init__(self, robot: Robot, settings: RolloutSettings) -> None:
+    def __init__(self, robot: Robot, cell: MemoryCell, c1: float, c2: float) -> None:
         self.robot = robot
-        text = rollout_source(robot, settings.cell, settings)
+        text = rollout_source(robot, cell, c1, c2)
         self.built = emit.build(text, name=f"rollouts_{robot.nv}", flags=FLAGS)
         self._library = emit.load(self.built)
 
 
 @dataclass(frozen=True)
 class _Key:
-    """A robot and settings that equal others when all their numbers do."""
+    """A robot and constants that equal others when all their numbers do."""
 
     text: str
-    settings: RolloutSettings
-    robot: Robot
-
-    def __eq__(self, other: object) -> bool:
-        same = isinstance(other, _Key) and self.text == other.text
-        return same and self.settings == getattr(other, "settings", None)
-
-    def __hash__(self) -> int:
-        return hash((self.text, self.settings))
+    constants: tuple[MemoryCell, float, float]
+    robot: Robot = field(compare=False)
 
 
 @lru_cache(maxsize=16)
 def _runtime(key: _Key) -> RolloutRuntime:
-    return RolloutRuntime(key.robot, key.settings)
+    return RolloutRuntime(key.robot, *key.constants)
 
 
 def rollout_runtime_of(robot: Robot, settings: RolloutSettings) -> RolloutRuntime:
@@ -64,7 +58,8 @@ def rollout_runtime_of(robot: Robot, settings: RolloutSettings) -> RolloutRuntim
     Raises:
         CompilerError: there is no C compiler, or it failed.
     """
-    return _runtime(_Key(json.dumps(robot.to_dict()), settings, robot))
+    constants = (settings.cell, settings.c1, settings.c2)
+    return _runtime(_Key(json.dumps(robot.to_dict()), constants, robot))
 
 
 class RolloutSearch(Search):

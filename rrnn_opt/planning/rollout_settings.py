@@ -30,8 +30,8 @@ class PaperRnn:
       printed.
     * (10) bounds the drive with the printed c1 and c2.  (12) compares a vector
       in space with intervals of joints: ``reading``; obstacles within ``safe``
-      count; a joint that does not move the sphere is left alone.  The gain of
-      (11) has no effect but its sign, and the g of (13) none at all.
+      count, each with its own set.  Of (11) only the sign has an effect, of the
+      g of (13) nothing.
     * A step collides when its certificate fails; the rollout then ends where
       the last proved step left it.  Pairs of the arm's own links have no set
       (12), but end a rollout.

@@ -25,6 +25,7 @@ _DOUBLES = (
     "speed",
     "rate",
     "kappa_o",
+    "inner",
 )
 _INTEGERS = (
     "law",
@@ -88,6 +89,7 @@ def _paper(robot: Robot, settings: PaperRnn) -> dict[str, Any]:
 def _single(settings: SingleRollout) -> dict[str, Any]:
     return {
         "safe": settings.outer,
+        "inner": settings.inner,
         "gain": settings.gain,
         "speed": settings.speed,
         "rate": settings.rate,

@@ -19,7 +19,7 @@ typedef struct {
     double stall_ratio;
     double radius;        /* rad, largest norm of a step */
     double slack;         /* m */
-    double gain, speed, rate, kappa_o; /* of the comparison schemes */
+    double gain, speed, rate, kappa_o, inner; /* of the comparison schemes */
     double center[3];     /* m, ball of the task-space draw */
     double ball;          /* m, its radius */
     int32_t law;
@@ -87,16 +87,21 @@ static int32_t sign_sets(rollouts_t *r, const pose_t *pose, double *lower,
     int32_t found = 0;
     for (int32_t p = 0; p < world->near_count; p++) {
         near_t *pair = &world->near[p];
-        double escape[NV] = {0}, least[NV], most[NV];
+        const double *moves = t_turns + NV * pair->sphere;
+        double escape[NV] = {0}, first[NV] = {0}, least[NV], most[NV];
         if (pair->group >= 0 || pair->gap > r->set.safe) {
             continue;
         }
         if (r->set.by_index) {
-            memcpy(escape, pair->n, (NV < 3 ? NV : 3) * sizeof(double));
+            for (int32_t k = 0; k < NV && k < 3; k++) {
+                escape[k] = pair->n[k];
+                first[k] = 1.0;
+            }
+            moves = first;
         } else {
             memcpy(escape, near_row(pair, pose), sizeof escape);
         }
-        k_sign_set(escape, lower, upper, least, most);
+        k_sign_set(escape, moves, lower, upper, least, most);
         memcpy(lower, least, sizeof least);
         memcpy(upper, most, sizeof most);
         found = 1;

@@ -108,7 +108,7 @@ static void contact_rows(rollouts_t *r, const near_t *pair, const pose_t *pose,
         closing -= sign[a] * pair->n[a] * approach[a];
     }
     const band_t *band = band_of(r, pair, approach);
-    k_band(&pair->gap, &share, &slope);
+    k_band(&pair->gap, &r->set.inner, &r->set.safe, &share, &slope);
     for (int32_t a = 0; a < 3; a++) {
         const double allowed = band == NULL ? 0.0 : band->allowed[a];
         double h = -share * allowed;
