@@ -13,6 +13,9 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.check import reading
+from rrnn_opt.check.cloud import Cloud
+from rrnn_opt.check.files import read_points
+from rrnn_opt.check.hull import Hull
 from rrnn_opt.check.reading import Array, get
 from rrnn_opt.errors import DocumentError
 
@@ -23,15 +26,21 @@ will do, and none may lose its unit length to underflow."""
 
 @dataclass(frozen=True, eq=False)
 class Obstacle:
-    """A convex obstacle.
+    """An obstacle, convex but for a cloud.
+
+    No half-space holds a cloud tightly: ``gap`` says minus infinity there, and
+    its distances alone prove and refute.
 
     Attributes:
         name: as in the problem file.
-        kind: "box", "cylinder", "capsule", "sphere" or "halfspace".
+        kind: "box", "cylinder", "capsule", "sphere", "halfspace", "mesh" or
+            "points".
         rotation: its axes as columns, (3, 3); a half-space has its normal third.
         position: (3,), m.
         dims: box: half edges; cylinder, capsule: radius and half length;
-            sphere: radius; half-space: offset, m.
+            sphere: radius; half-space: offset; mesh: largest coordinate;
+            points: radius and largest coordinate, m.
+        matter: what a mesh or a cloud is made of.
     """
 
     name: str
@@ -39,6 +48,7 @@ class Obstacle:
     rotation: Array
     position: Array
     dims: Array
+    matter: Hull | Cloud | None = None
 
     @property
     def size(self) -> float:
@@ -57,12 +67,26 @@ def read_obstacle(value: Any, name: str) -> Obstacle:
     label = str(entry.get("name", name))
     if kind == "halfspace":
         return _read_halfspace(entry, name, label)
+    if kind == "points":
+        return _read_cloud(entry, name, label)
     turned = entry.get("quat_xyzw")
     rotation = np.eye(3)
     if turned is not None:
         rotation = reading.quaternion(turned, f"{name}.quat_xyzw")
-    position = reading.numbers(get(entry, "position", name), (3,), f"{name}.position")
+    given = entry.get("position", [0, 0, 0] if kind == "mesh" else None)
+    position = reading.numbers(given, (3,), f"{name}.position")
+    if kind == "mesh":
+        scale = reading.positive(entry.get("scale", 1.0), f"{name}.scale")
+        hull = Hull(scale * read_points(entry, name), name)
+        return Obstacle(label, kind, rotation, position, np.array([hull.size]), hull)
     return Obstacle(label, kind, rotation, position, _read_dims(entry, kind, name))
+
+
+def _read_cloud(entry: Any, name: str, label: str) -> Obstacle:
+    cloud = Cloud(read_points(entry, name))
+    radius = reading.positive(get(entry, "radius", name), f"{name}.radius")
+    dims = np.array([radius, cloud.size])
+    return Obstacle(label, "points", np.eye(3), np.zeros(3), dims, cloud)
 
 
 def _read_dims(entry: Any, kind: str, name: str) -> Array:
@@ -106,6 +130,9 @@ def signed_distance(obstacle: Obstacle, points: Array) -> Array:
     if obstacle.kind == "halfspace":
         return np.asarray(points @ obstacle.rotation[:, 2] - obstacle.dims[0])
     local = (points - obstacle.position) @ obstacle.rotation
+    if obstacle.matter is not None:
+        d = obstacle.matter.nearest(local)[0]
+        return d - obstacle.dims[0] if obstacle.kind == "points" else d
     if obstacle.kind == "box":
         return _box(local, obstacle.dims)
     if obstacle.kind == "cylinder":
@@ -126,7 +153,9 @@ def normals(obstacle: Obstacle, points: Array) -> Array:
     if obstacle.kind == "halfspace":
         return np.broadcast_to(obstacle.rotation[:, 2], points.shape)
     local = (points - obstacle.position) @ obstacle.rotation
-    if obstacle.kind == "box":
+    if obstacle.matter is not None:
+        n = obstacle.matter.nearest(local)[1]
+    elif obstacle.kind == "box":
         n = _box_normals(local, obstacle.dims)
     elif obstacle.kind == "cylinder":
         flat = _meridian(local)
@@ -189,6 +218,10 @@ def gap(obstacle: Obstacle, points: Array, n: Array) -> Array:
     if obstacle.kind == "halfspace":
         return signed_distance(obstacle, points)
     beyond: Array = np.einsum("ij,ij->i", n, points - obstacle.position)
+    if isinstance(obstacle.matter, Hull):
+        return beyond - obstacle.matter.support(n @ obstacle.rotation)
+    if isinstance(obstacle.matter, Cloud):
+        return np.full(len(points), -np.inf)
     return beyond - _support(obstacle, np.abs(n @ obstacle.rotation))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Mapping
 from typing import Any
 
@@ -13,6 +14,18 @@ from rrnn_opt.errors import DocumentError
 Array = NDArray[np.float64]
 LARGEST = 1e9
 """Numbers beyond this are refused: metres and radians never need them."""
+
+
+def literal(text: str) -> Any:
+    """A Python literal, as in the header of an .npy file.
+
+    Raises:
+        ValueError: it is none.
+    """
+    try:
+        return ast.literal_eval(text.strip())
+    except (SyntaxError, ValueError):
+        raise ValueError("no literal") from None
 
 
 def mapping(value: Any, name: str) -> Mapping[str, Any]:

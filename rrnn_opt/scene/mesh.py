@@ -2,8 +2,10 @@
 
 The largest of the facets' plane distances never exceeds the distance to the
 hull, and equals it wherever a facet is nearest: a lower bound, which is what
-a proof needs.  Beyond edges and corners it is smaller than the distance, so
-that the planner keeps a little farther off than it must.  Offsets are the
+a proof needs.  Beyond edges and corners it is smaller than the distance; sharp
+ones therefore get planes of their own, touching the hull there, along the sum
+of the neighbours' normals (a box then has 26 planes in place of 6, and the
+bound is at least 0.92 of the distance in place of 0.58).  Offsets are the
 largest n.v over *all* vertices of the file, so that no rounding of the hull
 can cut a corner off.
 """
@@ -28,6 +30,8 @@ Array = NDArray[np.float64]
 
 SAME_PLANE = 1e-9
 """Facets whose normals differ by less are one."""
+SHARP = 0.9
+"""Edges whose facets' normals have a smaller product get a plane of their own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +47,9 @@ class Mesh:
         sha256: digest of the file; given, it must be this one.
         vertices: corners of the hull in the file's axes, scaled, (v, 3), m.
         triangles: indices of the hull's triangles, outwards, (t, 3).
-        normals: outward facet normals in the file's axes, (k, 3).
-        offsets: of the facet planes, (k,), m.
+        normals: outward normals of facets, sharp edges and corners in the
+            file's axes, (k, 3).
+        offsets: of their planes, (k,), m.
 
     Raises:
         ProblemError: a number is not finite, the scale not positive, the file
@@ -143,14 +148,32 @@ def _hull(points: Array, name: str) -> dict[str, Any]:
     turned = np.cross(edges[:, 1] - edges[:, 0], edges[:, 2] - edges[:, 0])
     inward = np.einsum("ij,ij->i", turned, hull.equations[:, :3]) < 0.0
     triangles[inward] = triangles[inward][:, ::-1]
-    decimals = round(-np.log10(SAME_PLANE))
-    _, first = np.unique(
-        hull.equations[:, :3].round(decimals), axis=0, return_index=True
-    )
-    normals = hull.equations[np.sort(first), :3]
+    normals = _unlike(np.concatenate([hull.equations[:, :3], _bevels(hull)]))
     return {
         "vertices": corners,
         "triangles": triangles,
         "normals": normals,
         "offsets": (normals @ points.T).max(axis=1),
     }
+
+
+def _unlike(normals: Array) -> Array:
+    """Different normals, in their order."""
+    decimals = round(-np.log10(SAME_PLANE))
+    _, first = np.unique(normals.round(decimals), axis=0, return_index=True)
+    return np.asarray(normals[np.sort(first)])
+
+
+def _bevels(hull: Any) -> Array:
+    """Unit normals across sharp edges and corners, (k, 3)."""
+    normals = hull.equations[:, :3]
+    a, b = np.repeat(np.arange(len(normals)), 3), hull.neighbors.ravel()
+    sharp = np.einsum("ij,ij->i", normals[a], normals[b]) < SHARP
+    sums = [normals[a[sharp]] + normals[b[sharp]]]
+    for corner in np.unique(hull.simplices[a[sharp]]):
+        around = _unlike(normals[np.any(hull.simplices == corner, axis=1)])
+        if len(around) > 2:
+            sums.append(around.sum(axis=0)[None])
+    rows = np.concatenate(sums)
+    length = np.linalg.norm(rows, axis=1)
+    return np.asarray(rows[length > 1e-3] / length[length > 1e-3, None])
