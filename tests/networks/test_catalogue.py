@@ -10,18 +10,10 @@ import pytest
 
 import rrnn_opt as rr
 from rrnn_opt import emit
-from rrnn_opt.errors import RrnnError
-from rrnn_opt.networks.inspection import (
-    function_operations,
-    graph_operations,
-    own_operations,
-)
-from rrnn_opt.networks.network import ARITHMETIC
 from tests.catalogue import (
     ROBOTS,
     Scheme,
     accepted,
-    form,
     kinematics,
     label,
     points,
@@ -81,49 +73,6 @@ def arrays(law, given):
 def function(law, *parts):
     symbols = [law.state.sx, *(p.sx for p in law.parameters)]
     return ca.Function("f", symbols, [ca.densify(part) for part in parts])
-
-
-@pytest.mark.parametrize(
-    "robot", ["planar3", pytest.param("pa10", marks=pytest.mark.slow)]
-)
-def test_a_network_adds_the_operations_that_it_declares_and_no_others(rule, robot):
-    """A network that called an undeclared inverse would be a fake."""
-    seen = set()
-    for declared in shapes(robot):
-        try:
-            own = own_operations(rule, declared)
-        except RrnnError as error:
-            names_both(error, rule, declared)
-            continue
-        assert own <= rule.operations, f"{declared.name}: {own - rule.operations}"
-        inverse = rule.needs(declared).inverse
-        factored = "Cholesky" in inverse or "KKT" in inverse
-        assert not factored or {"sqrt", "div"} <= own, declared.name
-        assert factored or "sqrt" not in own - rule.operations, declared.name
-        seen |= own
-    assert seen | ARITHMETIC == rule.operations | ARITHMETIC
-
-
-def names_both(error, rule, declared):
-    assert f"{type(rule).__name__}: {declared.name} " in str(error)
-
-
-def shapes(robot):
-    """The schemes that differ in size, bounds or Hessian, which is all that counts."""
-    found = {}
-    for scheme in schemes():
-        qp = form(robot, scheme).qp
-        sides = tuple(x.is_constant() for x in ca.vertsplit(ca.vertcat(qp.lb, qp.ub)))
-        key = (qp.A.shape, qp.G.shape, sides, qp.hessian.tobytes())
-        found.setdefault(key, form(robot, scheme))
-    return [*found.values()]
-
-
-def test_the_whole_graph_holds_what_network_and_scheme_hold(rule, pairs):
-    for scheme, law in pairs[1]:
-        of_scheme = function_operations(law.formulation.qp.functions()["qp"])
-        extra = graph_operations(law.frozen) - rule.operations - of_scheme
-        assert extra <= {"scale"}, f"{scheme}: {extra}"
 
 
 def test_it_is_as_large_as_it_says(rule, pairs):

@@ -148,3 +148,32 @@ def test_output_is_the_decision_and_the_formulation_is_kept():
     assert dynamics.formulation is form
     value = function(dynamics, dynamics.output)([1, 2, 3, 4, 5], [0, 0])
     assert np.asarray(value).ravel().tolist() == [1.0, 2.0, 3.0]
+
+
+@pytest.mark.parametrize("weight", [np.eye(3) / 2, np.diag([1.0, 0.3, 0.2])])
+@pytest.mark.parametrize("whiten", [False, True])
+def test_no_mode_grows_within_the_bound(weight, whiten):
+    """At any state, whatever is active there; beyond it one does somewhere."""
+    rows = ca.vertcat(u.sx[0] - 0.05, u.sx[1] + u.sx[2])
+    form = tracking(weight, inequalities=rows)
+    rule = PrimalDual(0.01, whiten=whiten)
+    dynamics, rng = rule(form), np.random.default_rng(0)
+    slope = function(dynamics, ca.jacobian(dynamics.derivative, dynamics.state.sx))
+    h = rule.euler_bound(form, rd_dot=[0.1, 0.2])
+    assert h > 0.0
+    worst = 0.0
+    for _ in range(200):
+        state = rng.normal(size=7) * rng.choice([0.1, 1.0])
+        modes = np.linalg.eigvals(np.asarray(slope(state, [0.1, 0.2])))
+        assert np.abs(1.0 + h * modes).max() <= 1.0 + 1e-9
+        worst = max(worst, np.abs(1.0 + 2.5 * h * modes).max())
+    assert worst > 1.0
+
+
+def test_the_bound_is_that_of_the_free_modes():
+    """P = I, sigma the largest singular value of J: h = eps / sigma^2."""
+    form = tracking(np.eye(3) / 2)
+    sigma = np.linalg.norm(J, 2)
+    bound = PrimalDual(0.01).euler_bound(form, rd_dot=[0, 0])
+    assert bound == pytest.approx(min(0.02, 0.01 / sigma**2))
+    assert PrimalDual().euler_bound(tracking(np.zeros((3, 3))), rd_dot=[0, 0]) == 0.0
