@@ -89,6 +89,19 @@ def chart_list(document: dict[str, Any], drawing: Drawing) -> list[Any]:
     return found
 
 
+def draw_scene(axes: Any, document: dict[str, Any]) -> None:
+    """Draw only the scene of a plan result, for figures of several.
+
+    Args:
+        axes: of matplotlib.
+        document: plan result; without a trajectory its path is drawn.
+
+    Raises:
+        DocumentError: the document is not a plan result.
+    """
+    _scene(axes, drawing_of(document))
+
+
 def _scene(axes: Any, drawing: Drawing) -> None:
     space = drawing.space
     painter = Painter(drawing.view, space.centre, space.size)
