@@ -195,28 +195,26 @@ def page(found: Sequence[Mark], command: str) -> str:
         for m in MODELS
         if m.row in rows
     ]
-    return (
-        "\n\n".join(
-            [
-                head("Table I", command),
-                "What a check found on our model of each row; **bold**, with the paper's "
-                f"word, where they differ: {len(differ)} of {len(found)} cells.",
-                _HOW,
-                markdown(["", *names], table),
-                "## What stands in each row",
-                markdown(["row", "scheme", "network", "it is"], standing),
-                "## Where we differ, and why",
-                markdown(
-                    ["row", "column", "paper", "ours", "what was seen"], _lines(differ)
-                ),
-                "## Where we agree",
-                markdown(
-                    ["row", "column", "paper", "ours", "what was seen"], _lines(agree)
-                ),
-            ]
-        )
-        + "\n"
+    about = (
+        "What a check found on our model of each row; **bold**, with the paper's word, "
+        f"where they differ: {len(differ)} of {len(found)} cells."
     )
+    parts = [
+        head("Table I", command),
+        about,
+        _HOW,
+        markdown(["", *names], table),
+        "## What stands in each row",
+        markdown(["row", "scheme", "network", "it is"], standing),
+        "## Where we differ, and why",
+        markdown(_REASONS, _lines(differ)),
+        "## Where we agree",
+        markdown(_REASONS, _lines(agree)),
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+_REASONS = ("row", "column", "paper", "ours", "what was seen")
 
 
 def _shown(mark: Mark) -> str:
