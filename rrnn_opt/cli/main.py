@@ -22,6 +22,7 @@ from rrnn_opt.cli import (
     plan,
     robots,
     simulate,
+    spheres,
     verify,
     view,
 )
@@ -38,6 +39,7 @@ COMMANDS: dict[str, Any] = {
     "simulate": simulate,
     "generate": generate,
     "verify": verify,
+    "spheres": spheres,
     "robots": robots,
     "doctor": doctor,
 }

@@ -1,0 +1,108 @@
+"""``rrnn spheres``: covering collision spheres of a URDF, proved to cover it."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+from rrnn_opt.cli.arguments import count, seconds
+from rrnn_opt.cli.output import Output, UsageError
+
+HELP = "fit collision spheres to a URDF's geometry and prove that they cover it"
+INFLATION = 0.02
+MOST = 16
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the command's arguments."""
+    parser.add_argument("urdf", metavar="URDF", help="the robot's description")
+    parser.add_argument("--out", required=True, metavar="FILE", help="sphere file")
+    parser.add_argument("--tip", metavar="FRAME", help="end-effector link")
+    parser.add_argument(
+        "--inflation",
+        type=seconds,
+        default=INFLATION,
+        metavar="M",
+        help="wanted bulge of the spheres, m (default %(default)s)",
+    )
+    parser.add_argument(
+        "--most",
+        type=count,
+        default=MOST,
+        metavar="N",
+        help="spheres for each piece of geometry at most (default %(default)s)",
+    )
+    parser.add_argument(
+        "--package-dir",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="where package:// paths start (may be repeated)",
+    )
+
+
+def run(args: argparse.Namespace, out: Output) -> int:
+    """Fit, prove, write; 1 when something is not shown to be covered."""
+    from rrnn_opt.robot.spheres import fit_spheres
+
+    target = Path(args.out)
+    if target.is_dir():
+        raise UsageError(f"{target} is a folder; give --out the name of a file")
+    fitted = fit_spheres(
+        args.urdf,
+        tip=args.tip,
+        inflation=args.inflation,
+        most=args.most,
+        folders=tuple(Path(folder) for folder in args.package_dir),
+    )
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_text(json.dumps(fitted.to_dict(), indent=1) + "\n", encoding="utf-8")
+    facts = described(fitted, str(target))
+    out.document(facts)
+    out.say(_text(facts))
+    return 0 if fitted.covered else 1
+
+
+def described(fitted: Any, path: str) -> dict[str, Any]:
+    """Counts and inflations as plain data."""
+    links = [
+        {
+            "link": cover.link,
+            "spheres": len(cover.balls),
+            "inflation_m": cover.inflation,
+            "triangles": cover.triangles,
+            "uncovered_triangles": cover.uncovered,
+        }
+        for cover in fitted.links
+    ]
+    return {
+        "file": path,
+        "covered": fitted.covered,
+        "spheres": sum(link["spheres"] for link in links),
+        "inflation_m": max((link["inflation_m"] for link in links), default=math.nan),
+        "links": links,
+        "disabled_self_collision_pairs": [list(row) for row in fitted.disabled],
+        "visual_geometry": list(fitted.visual),
+    }
+
+
+def _text(facts: dict[str, Any]) -> str:
+    from rrnn_opt.report import table
+
+    rows = [
+        (
+            link["link"],
+            str(link["spheres"]),
+            f"{1e3 * link['inflation_m']:.1f}",
+            f"{link['triangles'] - link['uncovered_triangles']}/{link['triangles']}",
+        )
+        for link in facts["links"]
+    ]
+    header = ("link", "spheres", "bulge [mm]", "triangles covered")
+    verdict = "cover" if facts["covered"] else "DO NOT cover"
+    pairs = len(facts["disabled_self_collision_pairs"])
+    head = f"{facts['spheres']} spheres {verdict} the geometry; {pairs} pairs disabled"
+    return f"{head}\n{table(header, rows, indent=2)}\nwrote {facts['file']}"

@@ -1,0 +1,140 @@
+"""The collision geometry of a URDF as triangles; only here is coal known.
+
+Meshes are loaded by coal (any format that assimp reads, URDF's ``scale``
+applied); spheres, cylinders and boxes stay what they are.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rrnn_opt.errors import RobotError
+from rrnn_opt.robot.placement import compose, shift, turn
+from rrnn_opt.robot.tree import Array
+from rrnn_opt.robot.urdf import SIZES, Urdf
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """A piece of a link's collision geometry.
+
+    Attributes:
+        kind: "mesh", "sphere", "cylinder" or "box".
+        size: radius; radius and length; three edges; nothing for a mesh; m.
+        pose: in the link's frame, (4, 4), m.
+        vertices: of a mesh, in its own axes, scaled, (v, 3), m.
+        triangles: vertex indices, (t, 3).
+    """
+
+    kind: str
+    size: tuple[float, ...]
+    pose: Array
+    vertices: Array
+    triangles: NDArray[np.int64]
+
+
+def collision_geometry(
+    urdf: Urdf, folders: tuple[Path, ...] = ()
+) -> tuple[dict[str, list[Geometry]], list[str]]:
+    """Geometry of every link that has any.
+
+    A link without collision geometry gives its visual geometry.
+
+    Args:
+        urdf: the checked file.
+        folders: where ``package://`` paths may start, besides the folders
+            above the file and those of ROS_PACKAGE_PATH.
+
+    Returns:
+        Geometry by link, and the links whose visual geometry was taken.
+
+    Raises:
+        RobotError: a mesh is not there or cannot be read.
+    """
+    found: dict[str, list[Geometry]] = {}
+    visual: list[str] = []
+    for link in ET.fromstring(urdf.text).findall("link"):
+        name, elements = link.attrib["name"], link.findall("collision")
+        if not elements:
+            elements = link.findall("visual")
+            visual += [name] if elements else []
+        if elements:
+            found[name] = [_geometry(e, urdf, folders) for e in elements]
+    return found, visual
+
+
+def _geometry(element: ET.Element, urdf: Urdf, folders: tuple[Path, ...]) -> Geometry:
+    pose = _pose(element.find("origin"))
+    none, faces = np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
+    for kind, keys in SIZES.items():
+        shape = element.find(f"geometry/{kind}")
+        if shape is not None:
+            words = " ".join(shape.attrib[key] for key in keys).split()
+            return Geometry(kind, tuple(map(float, words)), pose, none, faces)
+    mesh = element.find("geometry/mesh")
+    if mesh is None or "filename" not in mesh.attrib:
+        raise RobotError(urdf.path, "a geometry is neither a mesh nor a known shape")
+    scale = np.array([float(x) for x in mesh.get("scale", "1 1 1").split()])
+    path = mesh_path(mesh.attrib["filename"], Path(urdf.path), folders)
+    vertices, triangles = load_mesh(path, scale)
+    return Geometry("mesh", (), pose, vertices, triangles)
+
+
+def _pose(origin: ET.Element | None) -> Array:
+    given = {} if origin is None else origin.attrib
+    x, y, z = (float(v) for v in given.get("xyz", "0 0 0").split())
+    roll, pitch, yaw = (
+        math.degrees(float(v)) for v in given.get("rpy", "0 0 0").split()
+    )
+    return compose(shift(x, y, z), turn("z", yaw), turn("y", pitch), turn("x", roll))
+
+
+def mesh_path(reference: str, urdf: Path, folders: tuple[Path, ...]) -> Path:
+    """Where a mesh that a URDF names lies.
+
+    Raises:
+        RobotError: it is in none of the folders.
+    """
+    plain = reference.removeprefix("file://")
+    if "://" not in plain:
+        candidates = [urdf.parent / plain]
+    else:
+        inside = plain.split("://", 1)[1]
+        ros = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
+        roots = [*folders, *urdf.resolve().parents, *(Path(p) for p in ros if p)]
+        within = Path(*Path(inside).parts[1:])
+        candidates = [root / part for root in roots for part in (inside, within)]
+    for candidate in candidates:
+        if candidate.is_file():
+            return candidate
+    message = f"there is no mesh '{reference}'; name its package's parent folder"
+    raise RobotError(str(urdf), f"{message} with --package-dir")
+
+
+def load_mesh(path: Path, scale: Array) -> tuple[Array, NDArray[np.int64]]:
+    """Vertices (v, 3) and triangles (t, 3) of a mesh file, through coal.
+
+    Raises:
+        RobotError: it cannot be read, or has no triangles.
+    """
+    import coal
+
+    try:
+        model = coal.MeshLoader().load(str(path), np.asarray(scale, dtype=np.float64))
+    except (ValueError, RuntimeError) as error:
+        reason = str(error).strip().splitlines()
+        why = reason[0] if reason else "no reason given"
+        raise RobotError(str(path), f"no readable mesh: {why}") from None
+    vertices = np.array(model.vertices(), dtype=np.float64).reshape(-1, 3)
+    faces = [model.tri_indices(i) for i in range(model.num_tris)]
+    triangles = np.array([[f[0], f[1], f[2]] for f in faces], dtype=np.int64)
+    if not len(triangles) or not np.all(np.isfinite(vertices)):
+        raise RobotError(str(path), "has no triangles of finite vertices")
+    return vertices, triangles

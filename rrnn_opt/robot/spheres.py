@@ -1,0 +1,185 @@
+"""Fit covering spheres to a URDF's geometry, and prove that they cover it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rrnn_opt.robot.cover import cover_box, cover_cylinder
+from rrnn_opt.robot.cover_proof import uncovered
+from rrnn_opt.robot.geometry import Geometry, collision_geometry
+from rrnn_opt.robot.kinematics import Kinematics
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.solid_cover import cover_solid
+from rrnn_opt.robot.sphere_file import checked_pairs, placed_spheres
+from rrnn_opt.robot.tree import Array
+from rrnn_opt.robot.urdf import Urdf, read_urdf
+
+POSTURES = 400
+"""Random postures in which pairs are looked at."""
+SEED = 0
+
+
+@dataclass(frozen=True)
+class LinkCover:
+    """How a link was covered.
+
+    Attributes:
+        link: its name.
+        balls: (center (3,), radius), m, in the link's frame.
+        inflation: how far they bulge out of the geometry, m.
+        uncovered: triangles of its meshes that are not shown to be covered.
+        triangles: of its meshes.
+    """
+
+    link: str
+    balls: tuple[tuple[Array, float], ...]
+    inflation: float
+    uncovered: int
+    triangles: int
+
+
+@dataclass(frozen=True)
+class FittedSpheres:
+    """Spheres of a whole URDF.
+
+    Attributes:
+        links: covers, in the file's order.
+        disabled: (link, link, reason) pairs that should not be checked.
+        visual: links whose visual geometry was taken for want of another.
+    """
+
+    links: tuple[LinkCover, ...]
+    disabled: tuple[tuple[str, str, str], ...]
+    visual: tuple[str, ...]
+
+    @property
+    def covered(self) -> bool:
+        """Every triangle of every mesh is shown to lie in the spheres."""
+        return all(link.uncovered == 0 for link in self.links)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The sphere file."""
+        return {
+            "links": {
+                cover.link: [
+                    {"center": center.tolist(), "radius": radius}
+                    for center, radius in cover.balls
+                ]
+                for cover in self.links
+            },
+            "disabled_self_collision_pairs": [list(row) for row in self.disabled],
+        }
+
+
+def fit_spheres(
+    path: str | Path,
+    *,
+    tip: str | None = None,
+    inflation: float = 0.02,
+    most: int = 16,
+    folders: tuple[Path, ...] = (),
+) -> FittedSpheres:
+    """Covering spheres of every link of a URDF.
+
+    Args:
+        path: the URDF.
+        tip: end-effector link, for the joints that move when pairs are looked
+            at; by default that of ``Robot.from_urdf``.
+        inflation: wanted bulge, m; missed where ``most`` is too small.
+        most: spheres a piece of geometry, at most.
+        folders: where ``package://`` paths may start.
+
+    Returns:
+        Covers and disabled pairs: links that a joint connects, and links whose
+        spheres overlap in all of ``POSTURES`` random postures, of which
+        checking would forbid every posture.
+
+    Raises:
+        RobotError: the file or a mesh cannot be read.
+    """
+    urdf = read_urdf(path)
+    geometry, visual = collision_geometry(urdf, folders)
+    covers = tuple(
+        _link_cover(link, pieces, inflation, most) for link, pieces in geometry.items()
+    )
+    robot = Robot.from_urdf(path, tip=tip)
+    balls = {cover.link: cover.balls for cover in covers}
+    return FittedSpheres(covers, _disabled(robot, urdf, balls), tuple(visual))
+
+
+def _link_cover(
+    link: str, pieces: list[Geometry], inflation: float, most: int
+) -> LinkCover:
+    balls: list[tuple[Array, float]] = []
+    bulges, left, triangles = [0.0], 0, 0
+    for piece in pieces:
+        centers, radii, bulge = _fitted(piece, inflation, most)
+        bulges.append(bulge)
+        triangles += len(piece.triangles)
+        left += len(uncovered(piece.vertices, piece.triangles, centers, radii))
+        rotation, origin = piece.pose[:3, :3], piece.pose[:3, 3]
+        placed = centers @ rotation.T + origin
+        balls += [(c, float(r)) for c, r in zip(placed, radii, strict=True)]
+    return LinkCover(link, tuple(balls), max(bulges), left, triangles)
+
+
+def _fitted(piece: Geometry, inflation: float, most: int) -> tuple[Array, Array, float]:
+    if piece.kind == "mesh":
+        fit = cover_solid(
+            piece.vertices, piece.triangles, inflation=inflation, most=most
+        )
+        return fit.centers, fit.radii, fit.inflation
+    if piece.kind == "sphere":
+        return np.zeros((1, 3)), np.array(piece.size), 0.0
+    if piece.kind == "cylinder":
+        cover = cover_cylinder(*piece.size, inflation=inflation, most=most)
+    else:
+        cover = cover_box(piece.size, inflation=inflation, most=most)
+    return cover.centers, np.full(len(cover.centers), cover.radius), cover.inflation
+
+
+def _disabled(
+    robot: Robot, urdf: Urdf, balls: Mapping[str, tuple[tuple[Array, float], ...]]
+) -> tuple[tuple[str, str, str], ...]:
+    frames = {frame.name: frame for frame in robot.frames}
+    adjacent = {frozenset((a, b)) for _, a, b in urdf.joints}
+    rows = [(a, b, "adjacent") for a, b in combinations(balls, 2) if {a, b} in adjacent]
+    spheres = placed_spheres(balls, frames)
+    pairs = checked_pairs(spheres, frozenset(adjacent))
+    bodied = replace(robot, spheres=spheres, self_pairs=pairs)
+    always = f"overlap in each of {POSTURES} random postures"
+    return tuple(rows + [(a, b, always) for a, b in _touching(bodied)])
+
+
+def _touching(robot: Robot) -> list[tuple[str, str]]:
+    """Self pairs whose spheres overlap in every random posture."""
+    import casadi as ca
+
+    kin = Kinematics(robot)
+    low = np.where(np.isfinite(robot.limits.lower), robot.limits.lower, -np.pi)
+    high = np.where(np.isfinite(robot.limits.upper), robot.limits.upper, np.pi)
+    q = np.random.default_rng(SEED).uniform(low, high, (POSTURES, robot.nv))
+    centres = ca.Function("c", [kin.q], [kin.sphere_centres()]).map(POSTURES)
+    at = np.array(centres(q.T)).T.reshape(POSTURES, -1, 3)
+    radii = np.array([sphere.radius for sphere in robot.spheres])
+    of: dict[str, list[int]] = {}
+    for index, sphere in enumerate(robot.spheres):
+        of.setdefault(sphere.link, []).append(index)
+    return [
+        pair
+        for pair in robot.self_pairs
+        if _overlap(at, radii, of[pair[0]], of[pair[1]])
+    ]
+
+
+def _overlap(at: Array, radii: Array, first: list[int], second: list[int]) -> bool:
+    """Whether two links overlap in every posture, (n, ns, 3)."""
+    away = np.linalg.norm(at[:, first, None] - at[:, None, second], axis=3)
+    room = away - radii[first][:, None] - radii[second]
+    return bool(np.all(room.min(axis=(1, 2)) < 0.0))
