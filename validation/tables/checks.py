@@ -87,7 +87,7 @@ def global_convergence(model: Model, *, runs: int = 4) -> Finding:
     stopped = sum(error >= REACHED and stop for error, stop in ends)
     text = f"{words}; the tip reached {reached} of {runs} reachable fixed targets"
     if reached < runs:
-        text += f"; of the others, {stopped} have a joint at a stop or beyond"
+        text += f"; of the others, with a joint at a stop or beyond: {stopped}"
     return yes(unsettled == 0 and reached == runs), text
 
 

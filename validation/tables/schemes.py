@@ -135,8 +135,8 @@ def sections() -> Iterator[str]:
         "## Schemes\n\nRoot mean square error without noise and, over "
         f"{_SEEDS} seeds, with noise of 0.05 rad/s on the joint velocities; fastest "
         "joint; distance of the joints from their start after the round; share of the "
-        f"periods in which `PrimalDual`, as it comes, was at rest after {MOST} steps at "
-        "most.  Gains as they come."
+        f"periods in which `PrimalDual`, as it comes, was at rest after {MOST} steps. "
+        " Gains as they come."
     )
     yield markdown(header, [scheme_row(name) for name in scheme_names()])
     header = ["network", "steps a period", "us a period", "at rest", "inverse", "note"]
