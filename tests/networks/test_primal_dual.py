@@ -150,7 +150,9 @@ def test_output_is_the_decision_and_the_formulation_is_kept():
     assert np.asarray(value).ravel().tolist() == [1.0, 2.0, 3.0]
 
 
-@pytest.mark.parametrize("weight", [np.eye(3) / 2, np.diag([1.0, 0.3, 0.2])])
+@pytest.mark.parametrize(
+    "weight", [np.eye(3) / 2, np.diag([1.0, 0.3, 0.2]), np.diag([5.0, 4.0, 3.0])]
+)
 @pytest.mark.parametrize("whiten", [False, True])
 def test_no_mode_grows_within_the_bound(weight, whiten):
     """At any state, whatever is active there; beyond it one does somewhere."""
