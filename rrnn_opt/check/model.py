@@ -146,12 +146,12 @@ def _coupled(coupling: Mapping[str, Any], key: str, nj: int) -> Array:
 
 
 def _placements(value: Any, nj: int) -> tuple[Array, Array]:
-    matrices = reading.listing(value, "robot.placements")
-    if len(matrices) != nj:
-        raise DocumentError("robot.placements", f"must be {nj} matrices")
-    poses = [reading.pose(m, f"robot.placements[{k}]") for k, m in enumerate(matrices)]
-    rotation = np.array([r for r, _ in poses]).reshape(nj, 3, 3)
-    return reading.polished(rotation), np.array([p for _, p in poses]).reshape(nj, 3)
+    name = "robot.placements"
+    matrices = reading.numbers(value if nj else np.zeros((0, 4, 4)), (nj, 4, 4), name)
+    if np.any(matrices[:, 3] != (0.0, 0.0, 0.0, 1.0)):
+        raise DocumentError(name, "last rows must be 0 0 0 1")
+    rotation = reading.rotation(matrices[:, :3, :3], name)
+    return reading.polished(rotation), matrices[:, :3, 3]
 
 
 def _axes(value: Any, nj: int) -> Array:
