@@ -11,6 +11,7 @@ import os
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -138,3 +139,53 @@ def load_mesh(path: Path, scale: Array) -> tuple[Array, NDArray[np.int64]]:
     if not len(triangles) or not np.all(np.isfinite(vertices)):
         raise RobotError(str(path), "has no triangles of finite vertices")
     return vertices, triangles
+
+
+def ever_touch(
+    first: list[Geometry], second: list[Geometry], poses: list[tuple[Array, Array]]
+) -> bool:
+    """Whether two links' geometry touches in any of the poses, asked of coal.
+
+    Args:
+        first: geometry of one link.
+        second: of the other.
+        poses: (4, 4) of both links' frames, m.
+    """
+    import coal
+
+    ours = [(_solid(piece), piece.pose) for piece in first]
+    theirs = [(_solid(piece), piece.pose) for piece in second]
+    request, result = coal.CollisionRequest(), coal.CollisionResult()
+    for a, b in poses:
+        for one, at in ours:
+            for other, there in theirs:
+                result.clear()
+                placed = _placed(a @ at), _placed(b @ there)
+                if coal.collide(one, placed[0], other, placed[1], request, result):
+                    return True
+    return False
+
+
+def _placed(pose: Array) -> Any:
+    import coal
+
+    return coal.Transform3s(pose[:3, :3], pose[:3, 3])
+
+
+def _solid(piece: Geometry) -> Any:
+    """Coal's object of a piece of geometry."""
+    import coal
+
+    if piece.kind == "sphere":
+        return coal.Sphere(*piece.size)
+    if piece.kind == "cylinder":
+        return coal.Cylinder(*piece.size)
+    if piece.kind == "box":
+        return coal.Box(*piece.size)
+    model = coal.BVHModelOBBRSS()
+    model.beginModel(len(piece.triangles), len(piece.vertices))
+    corners = piece.vertices[piece.triangles]
+    for a, b, c in corners:
+        model.addTriangle(a, b, c)
+    model.endModel()
+    return model

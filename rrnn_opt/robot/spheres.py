@@ -12,7 +12,7 @@ import numpy as np
 
 from rrnn_opt.robot.cover import cover_box, cover_cylinder
 from rrnn_opt.robot.cover_proof import uncovered
-from rrnn_opt.robot.geometry import Geometry, collision_geometry
+from rrnn_opt.robot.geometry import Geometry, collision_geometry, ever_touch
 from rrnn_opt.robot.kinematics import Kinematics
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.solid_cover import cover_solid
@@ -22,6 +22,7 @@ from rrnn_opt.robot.urdf import Urdf, read_urdf
 
 POSTURES = 400
 """Random postures in which pairs are looked at."""
+NEIGHBOURS = 2
 SEED = 0
 
 
@@ -96,9 +97,12 @@ def fit_spheres(
         folders: where ``package://`` paths may start.
 
     Returns:
-        Covers and disabled pairs: links that a joint connects, and links whose
+        Covers and disabled pairs: links that a joint connects, links whose
         spheres overlap in all of ``POSTURES`` random postures, of which
-        checking would forbid every posture.
+        checking would forbid every posture, and links at most ``NEIGHBOURS``
+        joints apart whose spheres overlap in some of these postures while
+        their geometry touches in none.  The last is sampled, not proved; the
+        file says so in the pair's reason.
 
     Raises:
         RobotError: the file or a mesh cannot be read.
@@ -110,7 +114,8 @@ def fit_spheres(
     )
     robot = Robot.from_urdf(path, tip=tip)
     balls = {cover.link: cover.balls for cover in covers}
-    return FittedSpheres(covers, _disabled(robot, urdf, balls), tuple(visual))
+    disabled = _disabled(robot, urdf, balls, geometry)
+    return FittedSpheres(covers, disabled, tuple(visual))
 
 
 def _link_cover(
@@ -145,41 +150,71 @@ def _fitted(piece: Geometry, inflation: float, most: int) -> tuple[Array, Array,
 
 
 def _disabled(
-    robot: Robot, urdf: Urdf, balls: Mapping[str, tuple[tuple[Array, float], ...]]
+    robot: Robot,
+    urdf: Urdf,
+    balls: Mapping[str, tuple[tuple[Array, float], ...]],
+    geometry: Mapping[str, list[Geometry]],
 ) -> tuple[tuple[str, str, str], ...]:
     frames = {frame.name: frame for frame in robot.frames}
     adjacent = {frozenset((a, b)) for _, a, b in urdf.joints}
     rows = [(a, b, "adjacent") for a, b in combinations(balls, 2) if {a, b} in adjacent]
     spheres = placed_spheres(balls, frames)
     pairs = checked_pairs(spheres, frozenset(adjacent))
-    bodied = replace(robot, spheres=spheres, self_pairs=pairs)
-    always = f"overlap in each of {POSTURES} random postures"
-    return tuple(rows + [(a, b, always) for a, b in _touching(bodied)])
+    sampled = _Sampled(replace(robot, spheres=spheres, self_pairs=pairs))
+    always = f"spheres overlap in each of {POSTURES} random postures"
+    never = f"geometry touches in none of {POSTURES} random postures (sampled)"
+    for first, second in pairs:
+        share = sampled.overlap(first, second)
+        if share == 1.0:
+            rows.append((first, second, always))
+        elif share > 0.0 and sampled.joints_between(first, second) <= NEIGHBOURS:
+            poses = sampled.poses(first, second)
+            if not ever_touch(geometry[first], geometry[second], poses):
+                rows.append((first, second, never))
+    return tuple(rows)
 
 
-def _touching(robot: Robot) -> list[tuple[str, str]]:
-    """Self pairs whose spheres overlap in every random posture."""
-    import casadi as ca
+class _Sampled:
+    """A robot with spheres in ``POSTURES`` random postures.
 
-    kin = Kinematics(robot)
-    low = np.where(np.isfinite(robot.limits.lower), robot.limits.lower, -np.pi)
-    high = np.where(np.isfinite(robot.limits.upper), robot.limits.upper, np.pi)
-    q = np.random.default_rng(SEED).uniform(low, high, (POSTURES, robot.nv))
-    centres = ca.Function("c", [kin.q], [kin.sphere_centres()]).map(POSTURES)
-    at = np.array(centres(q.T)).T.reshape(POSTURES, -1, 3)
-    radii = np.array([sphere.radius for sphere in robot.spheres])
-    of: dict[str, list[int]] = {}
-    for index, sphere in enumerate(robot.spheres):
-        of.setdefault(sphere.link, []).append(index)
-    return [
-        pair
-        for pair in robot.self_pairs
-        if _overlap(at, radii, of[pair[0]], of[pair[1]])
-    ]
+    Args:
+        robot: the robot.
+    """
 
+    def __init__(self, robot: Robot) -> None:
+        import casadi as ca
 
-def _overlap(at: Array, radii: Array, first: list[int], second: list[int]) -> bool:
-    """Whether two links overlap in every posture, (n, ns, 3)."""
-    away = np.linalg.norm(at[:, first, None] - at[:, None, second], axis=3)
-    room = away - radii[first][:, None] - radii[second]
-    return bool(np.all(room.min(axis=(1, 2)) < 0.0))
+        self.robot, self.kin = robot, Kinematics(robot)
+        low = np.where(np.isfinite(robot.limits.lower), robot.limits.lower, -np.pi)
+        high = np.where(np.isfinite(robot.limits.upper), robot.limits.upper, np.pi)
+        rng = np.random.default_rng(SEED)
+        self.q = rng.uniform(low, high, (POSTURES, robot.nv))
+        centres = ca.Function("c", [self.kin.q], [self.kin.sphere_centres()])
+        at = np.array(centres.map(POSTURES)(self.q.T)).T
+        self.at: Array = at.reshape(POSTURES, -1, 3)
+        self.radii = np.array([sphere.radius for sphere in robot.spheres])
+        self.of: dict[str, list[int]] = {}
+        for index, sphere in enumerate(robot.spheres):
+            self.of.setdefault(sphere.link, []).append(index)
+
+    def overlap(self, first: str, second: str) -> float:
+        """Share of the postures in which spheres of two links overlap."""
+        i, j = self.of[first], self.of[second]
+        away = np.linalg.norm(self.at[:, i, None] - self.at[:, None, j], axis=3)
+        room = away - self.radii[i][:, None] - self.radii[j]
+        return float(np.mean(room.min(axis=(1, 2)) < 0.0))
+
+    def joints_between(self, first: str, second: str) -> int:
+        """Number of joints that move one of two links relative to the other."""
+        tree = self.robot.tree
+        a, b = (set(tree.ancestors(self.robot.frame(n).joint)) for n in (first, second))
+        return len(a ^ b)
+
+    def poses(self, first: str, second: str) -> list[tuple[Array, Array]]:
+        """Poses (4, 4) of two links' frames in every posture."""
+        import casadi as ca
+
+        both = [self.kin.pose(first), self.kin.pose(second)]
+        evaluate = ca.Function("both", [self.kin.q], both)
+        found = (evaluate(q) for q in self.q)
+        return [(np.array(a), np.array(b)) for a, b in found]
