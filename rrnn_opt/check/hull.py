@@ -36,12 +36,14 @@ class Hull:
         self.points = np.unique(faces.reshape(-1, 3), axis=0)
         outside = (points @ self.normals.T).max(axis=0)
         self.offsets: Array = outside
-        self.all = points[(points @ self.normals.T > outside - 1e-9).any(axis=1)]
+        self.all = np.unique(points, axis=0)
         self.size = size
 
     def support(self, n: Array) -> Array:
         """Largest n.x over the points, (M,), m."""
-        return np.asarray((n @ self.all.T).max(axis=1))
+        step = max(1, _CHUNK // len(self.all))
+        parts = [n[i : i + step] @ self.all.T for i in range(0, len(n), step)]
+        return np.concatenate([np.zeros(0), *(part.max(axis=1) for part in parts)])
 
     def nearest(self, local: Array) -> tuple[Array, Array]:
         """Signed distance (M,) and outward unit normal (M, 3)."""

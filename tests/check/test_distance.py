@@ -124,7 +124,8 @@ def test_special_points_have_a_unit_normal(name):
         ({"position": [0, 0, float("nan")]}, "position"),
         ({"position": ["0", 0, 0]}, "position"),
         ({"quat_xyzw": [0, 0, 0, 2]}, "quat_xyzw"),
-        ({"type": "mesh"}, "type"),
+        ({"type": "mesh"}, "path"),
+        ({"type": "torus"}, "type"),
         ({"type": 3}, "type"),
     ],
 )

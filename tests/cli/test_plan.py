@@ -38,6 +38,9 @@ def test_a_solved_problem_leaves_four_files_that_agree(rrnn, problem, tmp_path):
     checked = rrnn("check", "out/plan.json", "--json")
     assert checked.returncode == 0
     assert only_document(checked)["holds"] is True
+    exact = only_document(rrnn("check", "out/plan.json", "--exact", "--json"))
+    assert exact["holds"] is True
+    assert "ball arithmetic" in exact["certificate"]["method"]
 
 
 def test_the_same_seed_gives_the_same_plan_but_for_times(rrnn, problem):
