@@ -80,7 +80,13 @@ def optimum(form, given):
     return solution.x
 
 
-@pytest.mark.parametrize("name", SCHEMES)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.slow) if name in ILL_CONDITIONED else name
+        for name in SCHEMES
+    ],
+)
 def test_every_scheme_commands_its_optimum(pa10, circle, name):
     result = simulate(name, pa10, circle(duration=1.0, sigma=0.02, seed=3))
     assert result.limits_kept
@@ -147,7 +153,14 @@ def blocked(pa10, circle):
     return replace(task, curve=curve, scene=scene)
 
 
-@pytest.mark.parametrize("name", ["clearance_rows", "sign_rows", "joint_sign_sets"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "clearance_rows",
+        pytest.param("sign_rows", marks=pytest.mark.slow),
+        pytest.param("joint_sign_sets", marks=pytest.mark.slow),
+    ],
+)
 def test_contacts_are_those_of_the_scene(pa10, blocked, name):
     contacts = default_contacts(pa10)
     result = simulate(name, pa10, blocked)
@@ -229,6 +242,7 @@ def jacobian(kin, sphere, q):
     return np.hstack([np.asarray(centre(q + s) - centre(q - s)) / 2e-6 for s in steps])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scheme", "rule"),
     [(method2, LviPdnn()), (method3, NoiseTolerantZnn()), (method1, LviPdnn())],

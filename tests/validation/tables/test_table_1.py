@@ -66,6 +66,7 @@ def test_networks_begin_where_they_are_put():
     assert str(one) != str(two)
 
 
+@pytest.mark.slow
 def test_an_obstacle_is_hit_without_contacts_and_cleared_with_rows():
     model = replace(PROPOSED, scheme=clearance_rows, law="reduced")
     (case,) = blocked(model, 1)

@@ -47,6 +47,7 @@ def test_the_printed_law_lags_and_feed_forward_does_not():
     assert told[2] == pytest.approx(5.0 * told[1], rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_quiet_posture_is_better_than_the_same_feedback_without():
     gains = {"kappa": 90.0}
     plain, quiet = (
@@ -56,6 +57,7 @@ def test_a_quiet_posture_is_better_than_the_same_feedback_without():
     assert all(q < 0.97 * p for q, p in zip(quiet, plain, strict=True))
 
 
+@pytest.mark.slow
 def test_the_search_is_seeded_sorted_and_keeps_to_its_ranges():
     entry = ENTRIES["forward"]
     one, two = (search(entry, points=2, seeds=1) for _ in range(2))
