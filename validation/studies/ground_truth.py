@@ -15,11 +15,13 @@ import argparse
 import os
 import platform
 import sys
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import lru_cache
 from importlib import metadata
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +47,9 @@ from rrnn_opt.validation.studies.points import Point, Points
 ROBOTS = ("pa10", "panda", "raven2", "planar3")
 SOLVERS = ("osqp", "daqp", "proxqp", "piqp")
 
+REFRESH = 60.0
+"""Seconds between two versions of the tables while the study runs."""
+
 
 @dataclass(frozen=True)
 class GroundTruth:
@@ -61,7 +66,7 @@ class GroundTruth:
 
     robots: tuple[str, ...] = ROBOTS
     points: int = 1000
-    block: int = 250
+    block: int = 125
     schemes: tuple[str, ...] = ()
     networks: tuple[str, ...] = ()
     name: str = "ground_truth"
@@ -71,14 +76,14 @@ class GroundTruth:
         _require(self.networks, list(network_rules(whitened=True)), "network")
 
     def __iter__(self) -> Iterator[Case]:
-        """Blocks, scheme by scheme on robot by robot."""
-        for robot in self.robots:
-            for scheme in self.schemes or [s.name for s in schemes()]:
-                for first in range(0, self.points, self.block):
-                    count = min(self.block, self.points - first)
-                    given = {"robot": robot, "scheme": scheme, "count": count}
-                    given |= {"networks": list(self.networks)}
-                    yield Case(f"{robot}/{scheme}/{first}", given)
+        """The first block of every scheme and robot, then every second one, .."""
+        names = self.schemes or tuple(s.name for s in schemes())
+        starts = range(0, self.points, self.block)
+        for first, robot, scheme in product(starts, self.robots, names):
+            count = min(self.block, self.points - first)
+            given = {"robot": robot, "scheme": scheme, "count": count}
+            given |= {"networks": list(self.networks)}
+            yield Case(f"{robot}/{scheme}/{first}", given)
 
     def measure(self, case: Case, rng: np.random.Generator) -> Mapping[str, Any]:
         """Tallies of the block: of its points, of solvers, of networks."""
@@ -156,11 +161,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 2
     ledger = Ledger(given.out / "rows.jsonl", seed=given.seed)
-    page = given.out / "ground_truth.md"
+    page, written = given.out / "ground_truth.md", time.monotonic()
     for part in (Infeasible(robots, given.infeasible, names[1]), study):
         for row in ledger.run(part, jobs=given.jobs):
             print(f"{row.key} {row.error}".rstrip(), file=sys.stderr, flush=True)
-            write(given.out, ledger.metrics, title=_title(arguments, ledger))
+            if time.monotonic() - written > REFRESH:
+                write(given.out, ledger.metrics, title=_title(arguments, ledger))
+                written = time.monotonic()
     write(given.out, ledger.metrics, title=_title(arguments, ledger))
     print(page)
     return 1 if ledger.errors else 0
@@ -173,7 +180,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     add = parser.add_argument
     add("--points", type=int, default=1000, help="of each scheme and robot")
-    add("--block", type=int, default=250, help="points after which tables are written")
+    add("--block", type=int, default=125, help="points after which tables are written")
     add("--infeasible", type=int, default=100, help="infeasible programmes a robot")
     add("--robots", nargs="+", default=ROBOTS, choices=ROBOTS)
     add("--schemes", nargs="+", default=(), help="all by default")

@@ -78,6 +78,21 @@ class LeakyCell(MemoryCell):
         return ca.fmin(ca.fmax(after, self.floor), 1 - self.floor)
 
 
+@dataclass(frozen=True)
+class HeuristicFirst(MemoryCell):
+    """No learning but for the first exploration, which is heuristic.
+
+    Attributes:
+        probability: of a random exploration from the second one on.
+    """
+
+    probability: float = 0.5
+
+    def flow(self, x: ca.SX, stimulus: ca.SX) -> ca.SX:
+        """Activity after one exploration."""
+        return ca.SX(self.probability)
+
+
 VARIANTS: dict[str, PlannerSettings] = {
     COIN: RandomRnn(coin=0.5),
     "cell (14)": RandomRnn(),
@@ -88,6 +103,9 @@ VARIANTS: dict[str, PlannerSettings] = {
     "(14), Euler step 1, held in [0, 1]": RandomRnn(cell=EulerCell()),
     "(14), w = 0.85 < A": RandomRnn(cell=MemoryCell(self_excitation=0.85)),
     "failure rate, leaky": RandomRnn(cell=LeakyCell()),
+    "heuristic first, then a fair coin": RandomRnn(cell=HeuristicFirst()),
+    "heuristic first, then 0.64": RandomRnn(cell=HeuristicFirst(probability=0.64)),
+    "heuristic first, then 0.9": RandomRnn(cell=HeuristicFirst(probability=0.9)),
     "always 0.1": RandomRnn(coin=0.1),
     "always 0.25": RandomRnn(coin=0.25),
     "always 0.75": RandomRnn(coin=0.75),

@@ -77,10 +77,12 @@ def _points_table(results: Rows) -> str:
         well, proved = sum(t.well for t in every), sum(t.proved for t in every)
         none = sum(t.none for t in every)
         parts = (*_shares(bound), *_shares(contact), _share(well, n))
-        lines.append((robot, n, none, *parts, _share(proved, n)))
+        fewest = min(t.n for t in every)
+        lines.append((robot, n, fewest, none, *parts, _share(proved, n)))
     head = (
-        *("robot", "points", "not drawn", "active bound", "least of a scheme"),
-        *("obstacle acts", "least of a scheme", "well", "proved"),
+        *("robot", "points", "fewest of a scheme", "not drawn"),
+        *("active bound", "least of a scheme", "obstacle acts", "least of a scheme"),
+        *("well", "proved"),
     )
     return _table(head, lines)
 
@@ -104,6 +106,7 @@ def _answers_table(table: Rows, by: tuple[str, ...]) -> str:
         "right",
         "wrong",
         "no answer",
+        "of them well",
         "Newton",
         "x",
         "multipliers",
