@@ -8,7 +8,7 @@ import sys
 
 from benchmarks.record import Benchmark
 
-NAMES = ("kinematics", "control_step", "planning")
+NAMES = ("kinematics", "control_step", "planning", "whitening", "simulation")
 
 
 def main() -> int:
