@@ -30,6 +30,7 @@ FLAGS = (
     "-ffp-contract=off",
     "-fno-math-errno",
     "-fvisibility=hidden",
+    "-Werror=implicit-function-declaration",
 )
 """Flags of every host build. No fast-math: results are defined to the bit."""
 TIMEOUT = 120.0

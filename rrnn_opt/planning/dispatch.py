@@ -48,7 +48,8 @@ static void k_distance_hull(const double p[3], const double *shape, double *d,
         k_distance_halfspace(p, shape + 16 * f, &facet, normal);
         if (facet > *d) {
             *d = facet;
-            memcpy(n, normal, 3 * sizeof(double));
+            for (int32_t i = 0; i < 3; i++)
+                n[i] = normal[i];
         }
     }
 }
