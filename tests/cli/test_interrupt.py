@@ -4,7 +4,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 
 import pytest
 
@@ -48,25 +47,23 @@ def test_an_interrupt_that_becomes_another_error_is_no_fault_of_ours(
     assert said == "rrnn: interrupted\n"
 
 
-def test_an_interrupt_waits_for_the_document(capfd):
+def test_an_interrupt_waits_for_the_document():
     reader, writer = os.pipe()
     received: list[bytes] = []
 
     def read() -> None:
-        time.sleep(0.4)
+        received.append(os.read(reader, 1))
+        os.kill(os.getpid(), signal.SIGINT)  # most of it is still to be written
         while chunk := os.read(reader, 1 << 16):
             received.append(chunk)
 
     document = {"long": list(range(200_000))}  # far beyond what a pipe holds
     thread = threading.Thread(target=read)
     thread.start()
-    timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
-    timer.start()
     with pytest.raises(KeyboardInterrupt):
         Output(True, writer).document(document)
     os.close(writer)
     thread.join()
-    timer.join()
     os.close(reader)
     assert json.loads(b"".join(received)) == document
 
