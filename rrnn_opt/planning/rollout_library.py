@@ -86,6 +86,9 @@ class RolloutSearch(Search):
             super().__exit__()
             raise RrnnError("planner: out of memory; give fewer obstacles")
 
+    def __enter__(self) -> RolloutSearch:
+        return self
+
     def __exit__(self, *_: object) -> None:
         self._runtime.function("rollouts_free", None, ct.c_void_p)(self._rollouts)
         self._rollouts = None
