@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import Any, cast
 
 from rrnn_opt import formulations
-from rrnn_opt.dynamics import DiscreteDynamics, NeuralDynamics
+from rrnn_opt.dynamics import DiscreteDynamics, Dynamics, NeuralDynamics
 from rrnn_opt.errors import ProblemError, RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.signs import Band
@@ -21,7 +21,7 @@ from rrnn_opt.simulation.signals import Surroundings
 from rrnn_opt.simulation.task import Task
 
 Scheme = Callable[..., Formulation]
-Network = Callable[[Formulation], NeuralDynamics | DiscreteDynamics]
+Network = Callable[[Formulation], Dynamics]
 
 NO_OBSTACLES = Scene()
 """One and the same for all tasks without obstacles, so that loops are found again."""
@@ -73,7 +73,10 @@ def _machine(
     band = taken["band"].default if "band" in taken else Band()
     around = Surroundings(scene, chosen, band.outer)
     rule = PrimalDual(epsilon=epsilon) if network is None else network
-    return machine(rule(form), kin, frame, around, epsilon=epsilon)
+    made = rule(form)
+    if not isinstance(made, NeuralDynamics | DiscreteDynamics):
+        raise RrnnError(f"{made.name}: neither an ODE nor a map")
+    return machine(made, kin, frame, around, epsilon=epsilon)
 
 
 def _declared(

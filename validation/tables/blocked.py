@@ -33,10 +33,12 @@ class Blocked:
 
     Attributes:
         task: the motion, with its scene.
+        ball: the obstacle.
         contacts: spheres that the scheme is told of.
     """
 
     task: Task
+    ball: Sphere
     contacts: tuple[int, ...]
 
 
@@ -53,7 +55,8 @@ def blocked(model: Model, count: int) -> tuple[Blocked, ...]:
     """
     robot, _ = arm()
     inner = [k for k, s in enumerate(robot.spheres) if s.joint in (2, 4)]
-    rng, found = np.random.default_rng(7), []
+    rng = np.random.default_rng(7)
+    found: list[Blocked] = []
     for _ in range(_TRIES):
         if len(found) == count:
             break
@@ -63,7 +66,7 @@ def blocked(model: Model, count: int) -> tuple[Blocked, ...]:
         if what is not None:
             moving = [k for k, s in enumerate(robot.spheres) if s.joint >= 0]
             contacts = tuple(sorted({sphere, *moving[::4]}))
-            found.append(Blocked(what, contacts))
+            found.append(Blocked(*what, contacts))
     return tuple(found)
 
 
@@ -79,7 +82,7 @@ def _free(model: Model, rng: np.random.Generator) -> SimulationResult:
     return simulate(model.scheme, robot, what, network=model.network)
 
 
-def _with_ball(free: SimulationResult, sphere: int) -> Task | None:
+def _with_ball(free: SimulationResult, sphere: int) -> tuple[Task, Sphere] | None:
     """The motion with a ball at the sphere's last place; None if that is no test."""
     centres = _centres(free.q[[0, -1]])
     ball = Sphere("ball", RADIUS, centres[1][:, sphere])
@@ -89,16 +92,16 @@ def _with_ball(free: SimulationResult, sphere: int) -> Task | None:
     roomy = (away - radii - RADIUS)[moving].min() > ROOM
     aside = np.linalg.norm(free.tip - ball.position, axis=1).min() > ASIDE
     still = free.max_error_m < 0.05
-    return (
-        replace(free.task, scene=Scene((ball,))) if roomy and aside and still else None
-    )
+    if not (roomy and aside and still):
+        return None
+    return replace(free.task, scene=Scene((ball,))), ball
 
 
 def least(model: Model, case: Blocked) -> tuple[float, SimulationResult]:
     """Least clearance of the spheres that the scheme is told of, m; and the run."""
     scheme, what = model.told(case.contacts), replace(case.task)
     result = simulate(scheme, arm()[0], what, network=model.network)
-    (ball,) = case.task.scene.obstacles
+    ball = case.ball
     radii = [arm()[0].spheres[k].radius for k in case.contacts]
     gaps = [
         np.linalg.norm(c[:, case.contacts] - ball.position[:, None], axis=0)

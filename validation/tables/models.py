@@ -10,6 +10,7 @@ import casadi as ca
 import numpy as np
 
 from rrnn_opt.dynamics import NeuralDynamics
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations import (
     joint_sign_sets,
@@ -21,6 +22,7 @@ from rrnn_opt.formulations import (
     model43,
 )
 from rrnn_opt.networks import DualNetwork, LviPdnn, Network, PrimalDual
+from rrnn_opt.robot import Kinematics
 
 Scheme = Callable[..., Formulation]
 
@@ -45,7 +47,7 @@ class Model:
     planner: str = ""
     standing: str = "a stand-in"
 
-    def form(self, kin: object, contacts: tuple[int, ...] = ()) -> Formulation:
+    def form(self, kin: Kinematics, contacts: tuple[int, ...] = ()) -> Formulation:
         """The scheme for a robot, with contacts if it can have any."""
         return self.told(contacts)(kin)
 
@@ -106,6 +108,8 @@ class FromAnywhere:
     def __call__(self, form: Formulation) -> NeuralDynamics:
         """The network of ``form``."""
         made = self.network(form)
+        if not isinstance(made, NeuralDynamics):
+            raise RrnnError(f"{made.name}: a map is not begun in a random state")
         rng = np.random.default_rng([self.seed, 1])
         start = ca.SX(ca.DM(rng.standard_normal(made.state.size)))
-        return replace(made, start=start)  # type: ignore[arg-type, return-value]
+        return replace(made, start=start)

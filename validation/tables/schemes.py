@@ -15,7 +15,7 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -55,16 +55,16 @@ def scheme_names() -> list[str]:
 
 def rules() -> dict[str, Any]:
     """Networks that ``rrnn_opt.networks`` exports, and whitened ones."""
-    found = {}
+    found: dict[str, Any] = {}
     for name in networks.__all__:
-        rule = getattr(networks, name)
+        rule: Any = getattr(networks, name)
         if not (inspect.isclass(rule) and issubclass(rule, networks.Network)):
             continue
         if rule is networks.Network:
             continue
         found[name] = rule()
         if "whiten" in inspect.signature(rule).parameters:
-            found[f"{name}(whiten=True)"] = rule(whiten=True)
+            found[f"{name}(whiten=True)"] = cast(Any, rule)(whiten=True)
     return found
 
 
@@ -90,7 +90,7 @@ def scheme_row(name: str) -> list[str]:
 
 def network_row(name: str, rule: Any) -> list[str]:
     """Steps, time and what a network needs; or why it refuses."""
-    scheme = closed_loop
+    scheme: Any = closed_loop
     try:
         needs = rule.needs(closed_loop(arm()[1]))
         run, seconds = _timed(scheme, _task(0.05, 0), rule)

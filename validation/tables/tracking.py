@@ -51,6 +51,8 @@ CIRCLES: dict[str, tuple[tuple[float, ...], str]] = {
 
 _FAST = DualNetwork(whiten=True)
 _SLOW = PrimalDual(epsilon=0.01)
+_BOXED = PrimalDual(epsilon=0.01, whiten=True)
+"""Its output obeys the bounds even where the rows contradict them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +69,7 @@ class Entry:
         ranges: gains that are searched, with least and largest value.
         law: "reduced" or "literal".
         network: that settles it.
+        steps: of the network in a period, at most; None for the usual number.
         note: what a reader must know.
     """
 
@@ -78,6 +81,7 @@ class Entry:
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     law: str = "reduced"
     network: Callable[[Formulation], NeuralDynamics] = _FAST
+    steps: int | None = None
     note: str = ""
 
     def with_gains(self, gains: Mapping[str, float]) -> Callable[..., Formulation]:
@@ -126,6 +130,8 @@ ENTRIES: dict[str, Entry] = {
         "ours",
         _PROPOSED,
         ranges={"kappa": _RATE},
+        network=_BOXED,
+        steps=2000,
         note="all directions of the error decay alike",
     ),
     "quiet": Entry(
@@ -134,6 +140,8 @@ ENTRIES: dict[str, Entry] = {
         "ours",
         _PROPOSED,
         ranges={"kappa": _RATE, "gain": (0.5, 50.0)},
+        network=_BOXED,
+        steps=2000,
         note="self-motion to postures at which joint noise moves the tip least",
     ),
     "method1": Entry(
@@ -180,7 +188,14 @@ def robot() -> Robot:
     return Robot.builtin("pa10")
 
 
-def task(circle: str, sigma: float, seed: int, *, law: str = "reduced") -> Task:
+def task(
+    circle: str,
+    sigma: float,
+    seed: int,
+    *,
+    law: str = "reduced",
+    steps: int | None = None,
+) -> Task:
     """One run's task.
 
     Args:
@@ -188,12 +203,13 @@ def task(circle: str, sigma: float, seed: int, *, law: str = "reduced") -> Task:
         sigma: of the noise, rad/s.
         seed: of the noise.
         law: how the network runs.
+        steps: of the network in a period, at most.
     """
     start, plane = CIRCLES[circle]
     return Task(
         curve=Curve("circle", 10.0, 10.0, plane=plane, radius=0.15),
         q0=np.deg2rad(np.array(start)),
-        control=Control(dt=0.01, epsilon=0.01, law=law),
+        control=Control(dt=0.01, epsilon=0.01, law=law, steps=steps),
         noise=Noise("joint_velocity", sigma, seed),
     )
 
@@ -213,5 +229,5 @@ class Runner:
     def run(self, circle: str, sigma: float, seed: int) -> SimulationResult:
         """One run; see ``task``."""
         entry = self._entry
-        what = task(circle, sigma, seed, law=entry.law)
+        what = task(circle, sigma, seed, law=entry.law, steps=entry.steps)
         return simulate(self._scheme, robot(), what, network=entry.network)
