@@ -22,7 +22,7 @@ def covered(targets: Sequence[Target], leaves: Sequence[Leaf], pieces: int) -> b
         while (finer := chain[-1].finer) is not None:
             chain.append(finer.target)
         rows = [_fine_rows(leaf, chain) for leaf in leaves if leaf.target in chain]
-        if target.count and not _tiled(rows, chain[-1].count, pieces):
+        if target.count and not tiled(rows, chain[-1].count, pieces):
             return False
     return True
 
@@ -37,7 +37,14 @@ def _fine_rows(leaf: Leaf, chain: list[Target]) -> Any:
     return np.stack([leaf.boxes.piece[box], pair, middle - half, middle + half])
 
 
-def _tiled(rows: list[Any], pairs: int, pieces: int) -> bool:
+def tiled(rows: list[Any], pairs: int, pieces: int) -> bool:
+    """Whether rows (piece, pair, start, end) cover [0, 1] for all of both.
+
+    Args:
+        rows: arrays of four rows each.
+        pairs: number of pairs.
+        pieces: number of pieces.
+    """
     if not rows:
         return False
     piece, pair, start, end = np.concatenate(rows, axis=1)

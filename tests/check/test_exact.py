@@ -9,6 +9,7 @@ import pytest
 from rrnn_opt.check import certify_trajectory, check_plan
 from rrnn_opt.check.ball_scene import BallScene
 from rrnn_opt.check.collision import Effort, prove_free
+from rrnn_opt.check.cover import tiled
 from rrnn_opt.check.exact import recheck
 from rrnn_opt.check.inputs import read_motion, read_scene
 from rrnn_opt.check.model import read_model
@@ -83,6 +84,23 @@ def test_a_missing_time_or_pair_is_noticed(planar):
     half = dataclasses.replace(leaf.boxes, half=leaf.boxes.half / 2)
     hole = leaf._replace(boxes=half)
     assert not recheck(balls, [hole, *found.leaves[1:]]).covered
+
+
+@pytest.mark.parametrize(
+    ("ends", "whole"),
+    [
+        ([(0.0, 0.5), (0.5, 1.0)], True),
+        ([(0.5, 1.0), (0.0, 0.25), (0.25, 0.5)], True),
+        ([(0.0, 0.5), (0.5 + 2**-50, 1.0)], False),
+        ([(0.0, 0.75), (0.5, 1.0)], False),
+        ([(0.0, 0.5)], False),
+        ([(2**-50, 1.0)], False),
+        ([], False),
+    ],
+)
+def test_boxes_must_touch_to_the_last_bit(ends, whole):
+    rows = [np.array([[0], [0], [a], [b]]) for a, b in ends]
+    assert tiled(rows, 1, 1) is whole
 
 
 def test_a_bound_that_lies_is_refused(planar):
