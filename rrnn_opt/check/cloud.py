@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rrnn_opt.check.reading import Array
 
@@ -53,7 +54,7 @@ class Cloud:
         best = order[np.unique(row[order], return_index=True)[1]]
         return far[best], spot[best]
 
-    def _inside(self, query: Array, block: Array) -> tuple[Array, Array]:
+    def _inside(self, query: Array, block: NDArray[np.intp]) -> tuple[Array, Array]:
         """Nearest point of one block for each row."""
         points = self.blocks[block]
         away = points - query[:, None]

@@ -46,9 +46,10 @@ def _npy(raw: bytes) -> Array:
     (length,) = struct.unpack_from("<I" if wide else "<H", raw, 8)
     begin = (12 if wide else 10) + length
     header = reading.literal(raw[12 if wide else 10 : begin].decode("latin1"))
-    order = "F" if header["fortran_order"] else "C"
     data = np.frombuffer(raw, np.dtype(header["descr"]), offset=begin)
-    return np.array(data.reshape(header["shape"], order=order), dtype=np.float64)
+    if header["fortran_order"]:
+        data = data.reshape(header["shape"], order="F")
+    return np.array(data.reshape(header["shape"]), dtype=np.float64)
 
 
 def _csv(raw: bytes) -> Array:

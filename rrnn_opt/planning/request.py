@@ -90,8 +90,9 @@ def pack(
     }
     whole = {k: np.ascontiguousarray(v, dtype=np.int32) for k, v in indices.items()}
     targets = (TipTarget * max(len(tips), 1))(*(tip_target(t) for t in tips))
+    every: dict[str, NDArray[Any]] = {**arrays, **whole}
     struct = Request(
-        **{name: array.ctypes.data for name, array in {**arrays, **whole}.items()},
+        **{name: array.ctypes.data for name, array in every.items()},
         margin=problem.margin,
         obstacle_count=len(tree.solids.kind),
         flat=tree.flat,
