@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes as ct
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,7 +79,7 @@ class Search:
             raise RrnnError("planner: out of memory; give fewer obstacles")
         self._nv = runtime.robot.nv
 
-    def __enter__(self) -> Search:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
