@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
-from rrnn_opt.dynamics import Dynamics
+from rrnn_opt.dynamics import DiscreteDynamics, NeuralDynamics
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
 
@@ -61,7 +61,7 @@ class Network(ABC):
     """
 
     @abstractmethod
-    def __call__(self, form: Formulation) -> Dynamics:
+    def __call__(self, form: Formulation) -> NeuralDynamics | DiscreteDynamics:
         """The network of ``form``."""
 
     @abstractmethod
