@@ -9,7 +9,6 @@ from rrnn_opt.cli.folders import folder
 from rrnn_opt.cli.output import Output
 
 HELP = "write a scheme's controller as a C package"
-NETWORKS = ("PrimalDual",)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -17,7 +16,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("formulation", metavar="FORMULATION", help="name of a scheme")
     parser.add_argument("--robot", required=True, help="built-in name or URDF file")
     parser.add_argument("--out", required=True, metavar="DIR", help="parent folder")
-    parser.add_argument("--network", choices=NETWORKS, default=NETWORKS[0])
+    parser.add_argument(
+        "--network",
+        metavar="NAME",
+        help="a network by name (default: LviPdnn over whitened rows)",
+    )
     parser.add_argument("--real", choices=("float", "double"), default="float")
     parser.add_argument("--prefix", help="of every exported name (default: the robot)")
     parser.add_argument("--target", choices=("host",), default="host")
@@ -27,11 +30,12 @@ def run(args: argparse.Namespace, out: Output) -> int:
     """Write the package and name its folder."""
     target = folder(args.out)
     scheme, robot = named.scheme(args.formulation), named.robot(args.robot)
-    from rrnn_opt import networks
     from rrnn_opt.embedding import generate
+    from rrnn_opt.networks import LviPdnn
     from rrnn_opt.robot import Kinematics
 
-    law = getattr(networks, args.network)()(scheme(Kinematics(robot)))
+    rule = named.network(args.network) if args.network else LviPdnn(whiten=True)
+    law = rule(scheme(Kinematics(robot)))
     package = generate(law, prefix=args.prefix or robot.name, real=args.real)
     written = package.write(target)
     out.document(package.manifest)

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.dynamics import NeuralDynamics
+from rrnn_opt.dynamics import Dynamics
 from rrnn_opt.embedding import render
 from rrnn_opt.embedding.kernel import Field, Kernel, kernel
 from rrnn_opt.embedding.package import Package, with_manifest
-from rrnn_opt.embedding.vectors import STEP_SIZE, reference_vectors
+from rrnn_opt.embedding.vectors import STEP_SIZE, reference_vectors, tolerance
 from rrnn_opt.embedding.words import require_prefix
 from rrnn_opt.emit.prologue import Real, require_real
 from rrnn_opt.errors import RrnnError
@@ -21,7 +21,7 @@ MAX_STEPS = 100_000
 
 
 def generate(
-    dynamics: NeuralDynamics,
+    dynamics: Dynamics,
     *,
     prefix: str = "arm",
     real: Real = "float",
@@ -59,14 +59,17 @@ def generate(
     vectors = reference_vectors(
         core, steps=steps, step_size=tested, single=real == "float"
     )
+    close = tolerance(
+        core, vectors, steps=steps, step_size=tested, single=real == "float"
+    )
     words = render.common_words(
         core, prefix=prefix, real=real, steps=steps, step_size=step_size
     )
     files = {
         f"include/{prefix}.h": render.header(core, words),
         f"src/{prefix}.c": render.source(core, words, real),
-        "test/test_host.c": render.host_test(core, vectors, words, real, tested),
-        "README.md": render.readme(core, words, real),
+        "test/test_host.c": render.host_test(core, vectors, words, real, tested, close),
+        "README.md": render.readme(core, words, real, close),
         "LICENSE": render.licence(),
     }
     options = {"real": real, "steps": steps, "step_size": step_size}

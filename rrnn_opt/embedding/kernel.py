@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from rrnn_opt.dynamics import Euler, NeuralDynamics
+from rrnn_opt.dynamics import Dynamics, Euler
 from rrnn_opt.embedding.words import member
 from rrnn_opt.emit.c99 import parameter_names
 from rrnn_opt.symbolic import Symbol, Tape, shape_of
@@ -51,7 +51,7 @@ class Kernel:
         bounds: number of bounds, 0 without.
     """
 
-    dynamics: NeuralDynamics
+    dynamics: Dynamics
     function: ca.Function
     tape: Tape
     state: Field
@@ -60,7 +60,7 @@ class Kernel:
     bounds: int
 
 
-def kernel(dynamics: NeuralDynamics) -> Kernel:
+def kernel(dynamics: Dynamics) -> Kernel:
     """One Euler step: the next state, the output there, and what the old state lacks.
 
     Args:
@@ -101,7 +101,7 @@ def kernel(dynamics: NeuralDynamics) -> Kernel:
     )
 
 
-def _output_field(dynamics: NeuralDynamics, shape: tuple[int, int]) -> Field:
+def _output_field(dynamics: Dynamics, shape: tuple[int, int]) -> Field:
     form = dynamics.formulation
     if form is None or form.decision.shape != shape:
         return Field("output", shape, "1", "output of the network")

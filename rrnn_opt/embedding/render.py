@@ -16,7 +16,6 @@ from rrnn_opt.emit import c_function, prologue
 from rrnn_opt.emit.c99 import library_calls, literal
 from rrnn_opt.emit.prologue import Real
 
-TOLERANCE: dict[str, float] = {"double": 1e-12, "float": 1e-4}
 _LARGEST = {"double": "DBL_MAX", "float": "FLT_MAX"}
 _ANGLE = {"double": "2^30", "float": "2^15"}
 
@@ -111,6 +110,7 @@ def host_test(
     words: dict[str, str],
     real: Real,
     step_size: float,
+    tolerance: float,
 ) -> str:
     """test/test_host.c."""
     rows = []
@@ -126,7 +126,7 @@ def host_test(
         | {
             "casadi": metadata.version("casadi"),
             "cases": str(len(vectors)),
-            "tolerance": literal(TOLERANCE[real], real),
+            "tolerance": literal(tolerance, real),
             "step_size": literal(step_size, real),
             "vectors": "\n".join(rows),
             "zero": literal(0.0, real),
@@ -139,7 +139,7 @@ def host_test(
     )
 
 
-def readme(kernel: Kernel, words: dict[str, str], real: Real) -> str:
+def readme(kernel: Kernel, words: dict[str, str], real: Real, tolerance: float) -> str:
     """README.md."""
     form = kernel.dynamics.formulation
     fields = [("state", kernel.state), *(("in", f) for f in kernel.inputs)]
@@ -160,7 +160,7 @@ def readme(kernel: Kernel, words: dict[str, str], real: Real) -> str:
             "library": ", ".join(library_calls(kernel.tape)) or "none but sqrt, fabs",
             "angle": _ANGLE[real],
             "cases": str(CASES),
-            "tolerance": f"{TOLERANCE[real]:g}",
+            "tolerance": f"{tolerance:g}",
         },
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,10 +10,13 @@ from numpy.typing import NDArray
 
 from rrnn_opt.embedding.kernel import Kernel
 from rrnn_opt.errors import RrnnError
+from rrnn_opt.symbolic.interpreter import evaluate
 
 Array = NDArray[np.float64]
 CASES = 8
 STEP_SIZE = 0.001
+LEAST = {False: 1e-12, True: 1e-4}
+"""Least tolerance of the package's test in double and in single precision."""
 _TRIALS = 1000
 
 
@@ -63,6 +67,46 @@ def reference_vectors(
         f"generate: {_TRIALS} random arguments of '{kernel.dynamics.name}' left the"
         " limits empty or the result not finite, so there is nothing to test with"
     )
+
+
+def tolerance(
+    kernel: Kernel,
+    vectors: Sequence[Vector],
+    *,
+    steps: int,
+    step_size: float,
+    single: bool,
+) -> float:
+    """What the package's own test may be off by, relative to the larger of 1 and x.
+
+    Four times what the very same operations in the package's precision are off
+    by, measured on the vectors with the tape's interpreter, and no less than
+    ``LEAST``: an ill-conditioned law is told from a wrong one.
+
+    Args:
+        kernel: the step.
+        vectors: the cases.
+        steps: Euler steps of one call.
+        step_size: s.
+        single: whether the package computes in single precision.
+    """
+    least, dtype = LEAST[single], np.float32 if single else np.float64
+    worst = 0.0
+    for vector in vectors:
+        following, output = vector.state, vector.output
+        for _ in range(steps):
+            shaped = [
+                value.reshape(field.shape, order="F")
+                for value, field in zip(vector.inputs, kernel.inputs, strict=True)
+            ]
+            arguments = [following, *shaped, np.array([step_size])]
+            results = evaluate(kernel.tape, arguments, dtype)
+            following, output = (np.ravel(r, order="F") for r in results[:2])
+        for got, want in ((following, vector.next), (output, vector.output)):
+            scale = np.maximum(np.abs(want), 1.0)
+            error = np.abs(got.astype(np.float64) - want) / scale
+            worst = max(worst, float(np.max(error, initial=0.0)))
+    return max(least, float(f"{4.0 * worst:.1g}"))
 
 
 def _run(
