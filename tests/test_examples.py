@@ -38,6 +38,7 @@ def test_readme_python(tmp_path):
     "arguments",
     [
         ("plan", "window.json"),
+        ("verify", "verify_my_claim.py"),
         ("simulate", "position_feedback", "--robot", "pa10", "--task", "circle.toml"),
     ],
     ids=lambda a: a[0],

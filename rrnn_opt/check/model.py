@@ -194,6 +194,8 @@ def _limits(value: Any, nv: int) -> dict[str, Any]:
 
 def _spheres(block: Mapping[str, Any], nj: int) -> dict[str, Any]:
     entries = reading.listing(get(block, "spheres", "robot"), "robot.spheres")
+    if not entries:
+        raise DocumentError("robot.spheres", "needs a sphere: nothing is no body")
     items = [reading.mapping(e, f"robot.spheres[{i}]") for i, e in enumerate(entries)]
     fields = {
         key: [get(e, key, f"robot.spheres[{i}]") for i, e in enumerate(items)]

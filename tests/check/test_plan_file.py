@@ -156,3 +156,14 @@ def test_only_our_own_errors_come_out(data, request):
         return
     assert isinstance(found.holds, bool)
     json.dumps(found.to_dict(), allow_nan=False)
+
+
+def test_a_robot_without_spheres_proves_nothing():
+    """An empty body is free of collisions only in words."""
+    import rrnn_opt as rr
+    from rrnn_opt.scene.library import scenario
+
+    plan = rr.plan(rr.Problem.from_dict(scenario("plane").problem(0))).to_dict()
+    plan["robot"]["spheres"] = []
+    with pytest.raises(DocumentError, match=r"robot\.spheres"):
+        check_plan(plan)
