@@ -29,7 +29,7 @@ from rrnn_opt.validation.studies.tally import (
     plain,
 )
 
-SETTLED = 1e-9
+SETTLED = 1e-10
 """KKT residual that a network is asked for."""
 
 
@@ -128,10 +128,10 @@ class Block:
 def _one(tally: AnswerTally, reply: Reply, *, right: bool, key: str) -> None:
     """Count one reply by itself."""
     tally.n += 1
-    if not right and len(tally.examples) < EXAMPLES:
-        tally.examples.append(key)
-    if reply.answer is None:
+    if not right:
         tally.statuses[reply.status] = tally.statuses.get(reply.status, 0) + 1
+        tally.examples += [key] if len(tally.examples) < EXAMPLES else []
+    if reply.answer is None:
         return
     tally.answered += 1
     tally.right += right

@@ -162,7 +162,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     ledger = Ledger(given.out / "rows.jsonl", seed=given.seed)
     page, written = given.out / "ground_truth.md", time.monotonic()
-    for part in (Infeasible(robots, given.infeasible, names[1]), study):
+    parts = (Infeasible(robots, given.infeasible, names[1]), study)
+    for part in parts:
+        ledger.choose(part)
+    for part in () if given.finished else parts:
         for row in ledger.run(part, jobs=given.jobs):
             print(f"{row.key} {row.error}".rstrip(), file=sys.stderr, flush=True)
             if time.monotonic() - written > REFRESH:
@@ -186,6 +189,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--schemes", nargs="+", default=(), help="all by default")
     add("--networks", nargs="+", default=(), help="all as they come by default")
     add("--jobs", type=int, default=1, help="worker processes")
+    add("--finished", action="store_true", help="tables of what is done; run nothing")
     add("--seed", type=int, default=0)
     add("--out", type=Path, required=True, help="folder of the tables")
     return parser

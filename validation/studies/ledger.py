@@ -52,6 +52,19 @@ class Ledger:
         self._entries = [e for e in _read(path) if e["seed"] == seed]
         self._wanted: set[str] = set()
 
+    def choose(self, study: Study) -> dict[str, str]:
+        """Count the rows of a study among those that are asked for below.
+
+        Args:
+            study: whose rows.
+
+        Returns:
+            What identifies each case in the file, by key.
+        """
+        cases = {case.key: _identity(case) for case in study}
+        self._wanted |= set(cases.values())
+        return cases
+
     def run(self, study: Study, *, jobs: int = 1) -> Iterator[Row]:
         """Run what is left of a study, keeping each row as it is finished.
 
@@ -59,8 +72,7 @@ class Ledger:
             study: what to run.
             jobs: worker processes.
         """
-        cases = {case.key: _identity(case) for case in study}
-        self._wanted |= set(cases.values())
+        cases = self.choose(study)
         finished = frozenset(entry["case"] for entry in self._entries)
         began = time.perf_counter()
         for row in rows(Rest(study, finished), jobs=jobs, seed=self._seed):
@@ -73,7 +85,7 @@ class Ledger:
 
     @property
     def metrics(self) -> list[Mapping[str, Any]]:
-        """Of all finished rows of the studies that were run."""
+        """Of all finished rows of the studies chosen or run."""
         return [e["metrics"] for e in self._chosen if not e["error"]]
 
     @property

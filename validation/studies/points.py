@@ -69,6 +69,8 @@ class Points:
         self._form, self._kin = form, kin
         self._postures = Postures(kin)
         self._shapes = {s.name: s for s in form.parameters}
+        symbols, qp = [p.sx for p in form.parameters], form.qp
+        self._rows = ca.Function("rows", symbols, [qp.A, qp.b])
         self._tip = ca.Function("tip", [kin.q], [kin.position()])
         J = kin.jacobian()
         self._moving = np.array([not J[i, :].is_zero() for i in range(3)])
@@ -164,16 +166,21 @@ class Points:
         self, name: str, given: dict[str, Array], wanted: Array, *, step: float
     ) -> None:
         """Change a parameter so that A wanted = b, b being affine in it there."""
-        base = Dense.of(self._form.qp.at(**given))
-        left = base.A @ wanted - base.b
+        A, b = self._equalities(given)
+        left = A @ wanted - b
         if np.abs(left).max(initial=0.0) <= 1e-12:
             return
         size = self._shapes[name].size
         slope = np.zeros((left.size, size))
         for k in range(size):
             moved = {**given, name: given[name] + step * np.eye(size)[k]}
-            slope[:, k] = (Dense.of(self._form.qp.at(**moved)).b - base.b) / step
+            slope[:, k] = (self._equalities(moved)[1] - b) / step
         given[name] = given[name] + np.linalg.lstsq(slope, left, rcond=None)[0]
+
+    def _equalities(self, given: dict[str, Array]) -> tuple[Array, Array]:
+        """A and b of the equality rows."""
+        A, b = self._rows.call([given[name] for name in self._shapes])
+        return np.asarray(A), np.asarray(b).ravel()
 
     def _judged(self, kind: str, given: dict[str, Array]) -> Point | None:
         """The point with what DAQP says; None where DAQP finds no optimum."""

@@ -46,7 +46,8 @@ class AnswerTally:
         dual: the same of the multipliers, relative to 1 + the largest.
         truth_primal: worst difference in x to the truth, well points.
         truth_dual: the same of the multipliers.
-        statuses: what happened where there was no answer, counted.
+        statuses: our judgement of what is not right, no answer included, counted;
+            "solved" is never expected here.
         apart: well points where it is more than the tolerance from a solver,
             by that solver's name.
         examples: keys of the first points without a right answer.
