@@ -115,6 +115,7 @@ def test_nan_never_leaves_as_json(capfd, monkeypatch):
     assert "NaN" not in capfd.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("option", ["", "--json"])
 def test_a_reader_that_leaves_early_stops_nothing(tmp_path, cache, option):
     problem = {

@@ -155,6 +155,7 @@ def test_ctrl_c_ends_with_130_and_a_document(cache, problem, tmp_path):
     assert "Traceback" not in said
 
 
+@pytest.mark.slow
 def test_a_spent_budget_is_said_and_drawn(rrnn, problem, tmp_path):
     ball = {"name": "post", "type": "sphere", "radius": 0.2, "position": [0, 0.5, 0]}
     name = problem(goal={"joints": [2.8, 0.1, 0.1]}, obstacles=[ball])

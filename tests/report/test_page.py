@@ -42,6 +42,7 @@ def test_without_viser_the_picture_and_one_sentence(window, tmp_path):
     assert "<iframe" not in text
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("without_viser")
 def test_every_string_of_a_document_is_escaped(window):
     for owner, key in (
@@ -60,6 +61,7 @@ def test_every_string_of_a_document_is_escaped(window):
     assert not [tag for tag, _ in tags(text) if tag == "script"]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("without_viser")
 def test_the_page_asks_for_nothing_from_outside(window):
     found = tags(page(window))
@@ -81,6 +83,7 @@ def test_with_viser_the_scene_is_inside_and_small(window, capfd):
     assert capfd.readouterr().out == ""
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not VISER, reason="the extra viz is not installed")
 def test_the_recording_moves_the_joints_as_long_as_the_motion_takes(window):
     import base64

@@ -39,6 +39,7 @@ def test_every_kind_of_shape_and_no_trajectory_can_be_drawn(every_shape, tmp_pat
         assert np.asarray(b.convert("L")).min() < 100  # the robot is there
 
 
+@pytest.mark.slow
 def test_the_same_document_gives_the_same_picture(every_shape):
     assert picture(every_shape) == picture(every_shape)
 
@@ -56,6 +57,7 @@ def test_what_is_no_plan_is_refused_in_one_sentence(broken):
         picture(broken)
 
 
+@pytest.mark.slow
 def test_names_of_a_document_are_not_read_as_formulas(every_shape):
     every_shape["robot"]["name"] = "a_$b^{$"
     every_shape["robot"]["joint_names"] = ["$x", "_y", "z$"]

@@ -3,6 +3,7 @@ import json
 import sys
 
 import numpy as np
+import pytest
 
 from rrnn_opt.report import write_plan
 
@@ -23,6 +24,7 @@ def test_four_files_that_say_the_same(window, tmp_path, monkeypatch):
     np.testing.assert_array_equal(np.array(rows, float), wanted)
 
 
+@pytest.mark.slow
 def test_without_a_trajectory_there_is_no_table(window, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "viser", None)
     paths = write_plan({**window, "trajectory": None}, tmp_path)
