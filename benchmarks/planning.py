@@ -9,7 +9,8 @@ would need with a compiled checker is at least
 its own bookkeeping not counted: the comparison favours OMPL.
 
 OMPL gets goal postures for nothing (20 of ours); our time includes finding
-them.  Neither time includes setting the problem up.  Its edges are checked every 1/32 rad, ours are proved.
+them.  Neither time includes setting the problem up.  Its edges are checked every
+1/32 rad, ours are proved.
 """
 
 from __future__ import annotations
