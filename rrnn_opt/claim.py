@@ -59,11 +59,14 @@ class Hypothesis:
         statement: in words.
         relation: what it says of the claim's variables; None when it cannot be
             said there (e.g. "noise is independent").
+        added: whether the source does not state it; then the claim can at
+            best hold under it.
     """
 
     id: str
     statement: str
     relation: Relation | None = None
+    added: bool = False
 
 
 @dataclass(frozen=True)
@@ -182,5 +185,6 @@ class Claim:
             ranges,
             self.order,
             self.jacobian,
+            [[h.relation is None and h.statement, h.added] for h in self.hypotheses],
         ]
         return hashlib.sha256(json.dumps(content).encode()).hexdigest()

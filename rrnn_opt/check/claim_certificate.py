@@ -8,7 +8,7 @@ A certificate is a JSON document::
                "outputs": [...],          goal, then hypotheses with a relation
                "tape": [[op, out, [args], constant as hex float, slot], ...],
                "senses": ["==0", ...],    one for every output
-               "worded": [ids of hypotheses said in words only],
+               "hypotheses": [[id, statement, in words only, not in the source]],
                "domain": [{"variable", "lower": ["1/2", null], "upper"}]},
      "method": "identity" | "terms" | "replay",
      "witness": {variable: ["p/q", ...]} or null,
@@ -178,7 +178,7 @@ def _identity(graph: ClaimGraph, data: Any, text: str) -> CheckedCertificate:
             f" {element} keeps {len(polynomial)} terms, the largest coefficient"
             f" {largest}"
         )
-    return _proved(forms, "the normal form is identically 0", text)
+    return _proved(graph, forms, "the normal form is identically 0", text)
 
 
 def _terms(graph: ClaimGraph, data: Any, text: str) -> CheckedCertificate:
@@ -193,17 +193,19 @@ def _terms(graph: ClaimGraph, data: Any, text: str) -> CheckedCertificate:
         strict = "=" not in sense
         if not never_negative(polynomial, forms, graph.domain, strict=strict):
             raise UndecidedError(f"element {element}: the terms differ in sign")
-    return _proved(forms, "every term has the claimed sign on the domain", text)
+    reason = "every term has the claimed sign on the domain"
+    return _proved(graph, forms, reason, text)
 
 
-def _proved(forms: NormalForms, reason: str, text: str) -> CheckedCertificate:
-    if not forms.partial:
-        return CheckedCertificate(PROVED, reason, text, "exact", seal=_SEAL)
-    met = ", ".join(forms.partial)
-    assumption = f"D1: every operation of the graph is defined ({met})"
-    return CheckedCertificate(
-        HOLDS_UNDER, reason, text, "exact", (assumption,), seal=_SEAL
-    )
+def _proved(
+    graph: ClaimGraph, forms: NormalForms, reason: str, text: str
+) -> CheckedCertificate:
+    assumptions = graph.added
+    if forms.partial:
+        met = ", ".join(forms.partial)
+        assumptions += (f"D1: every operation of the graph is defined ({met})",)
+    status = HOLDS_UNDER if assumptions else PROVED
+    return CheckedCertificate(status, reason, text, "exact", assumptions, seal=_SEAL)
 
 
 def _replay(graph: ClaimGraph, data: Any, text: str) -> CheckedCertificate:

@@ -59,6 +59,7 @@ class ClaimGraph:
         steps: values in order of evaluation, then results.
         senses: one for every output.
         worded: ids of hypotheses that are said in words only.
+        added: hypotheses that the source does not state, "id: statement".
         domain: (lower, upper) by (variable, element); None: no bound.
         fingerprint: computed from all of this.
     """
@@ -68,6 +69,7 @@ class ClaimGraph:
     steps: tuple[Step, ...]
     senses: tuple[str, ...]
     worded: tuple[str, ...]
+    added: tuple[str, ...]
     domain: Mapping[Element, tuple[Bound, Bound]]
     fingerprint: str
 
@@ -87,11 +89,13 @@ def read_claim(data: Mapping[str, Any]) -> ClaimGraph:
         steps = tuple(_step(row) for row in data["tape"])
         senses = tuple(str(sense) for sense in data["senses"])
         ranges = [_range(row, inputs) for row in data["domain"]]
-        worded = tuple(str(name) for name in data["worded"])
+        assumed = [_assumed(row) for row in data["hypotheses"]]
         order, jacobian = data["order"], data["jacobian"]
     except (KeyError, TypeError, ValueError, ZeroDivisionError) as error:
         raise DocumentError(WHERE, f"not readable ({error!r})") from error
     _require(len(senses) == len(outputs) > 0, "one sense for every output")
+    related = sum(not worded for _, _, worded, _ in assumed)
+    _require(related == len(senses) - 1, "one result for every hypothesis")
     _require(all(sense in SENSES for sense in senses), f"senses are {SENSES}")
     _check_steps(steps, inputs, outputs)
     content = [
@@ -100,10 +104,13 @@ def read_claim(data: Mapping[str, Any]) -> ClaimGraph:
         sorted((i, [str(x) for x in (*low, *high)]) for i, low, high in ranges),
         order,
         jacobian,
+        [[worded and text, added] for _, text, worded, added in assumed],
     ]
     fingerprint = hashlib.sha256(json.dumps(content).encode()).hexdigest()
     domain = _domain(ranges)
-    return ClaimGraph(inputs, outputs, steps, senses, worded, domain, fingerprint)
+    words = tuple(name for name, _, worded, _ in assumed if worded)
+    extra = tuple(f"{name}: {text}" for name, text, _, added in assumed if added)
+    return ClaimGraph(inputs, outputs, steps, senses, words, extra, domain, fingerprint)
 
 
 def read_rational(text: object) -> Fraction:
@@ -139,6 +146,11 @@ def _step(row: Sequence[Any]) -> Step:
         None if const is None else float.fromhex(const),
         None if slot is None else (int(slot[0]), int(slot[1])),
     )
+
+
+def _assumed(row: Sequence[Any]) -> tuple[str, str, bool, bool]:
+    name, text, worded, added = row
+    return str(name), str(text), bool(worded), bool(added)
 
 
 def _range(

@@ -53,7 +53,9 @@ def claim_block(claim: Claim) -> dict[str, Any]:
         "outputs": [_port(port) for port in tape.outputs],
         "tape": [_step(step) for step in tape.instructions],
         "senses": [relation.sense for relation in claim.relations],
-        "worded": [h.id for h in claim.hypotheses if h.relation is None],
+        "hypotheses": [
+            [h.id, h.statement, h.relation is None, h.added] for h in claim.hypotheses
+        ],
         "domain": [_range(interval) for interval in claim.domain],
     }
 

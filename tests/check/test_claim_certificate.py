@@ -222,3 +222,13 @@ def test_only_the_checker_makes_a_verdict():
         copy.copy(checked)
     checked.document["status"] = "PROVED"
     assert checked.certificate["status"] == "UNKNOWN"
+
+
+def test_what_the_source_does_not_state_is_an_assumption():
+    added = Hypothesis("A1", "x is not negative", Relation(x, ">=0"), added=True)
+    checked = check(IDENTITY, hypotheses=(added,))
+    assert checked.status == "HOLDS_UNDER"
+    assert checked.assumptions == ("A1: x is not negative",)
+    stated = certificate_document(claim(IDENTITY, hypotheses=(added,)), "identity")
+    stated["claim"]["hypotheses"][0][3] = False
+    assert check_certificate(stated).status == "UNKNOWN"  # another claim

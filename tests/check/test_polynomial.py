@@ -97,7 +97,7 @@ def test_an_unknown_operation_settles_nothing():
         Step("magic" if s.op == "add" else s.op, s.out, s.args, s.const, s.slot)
         for s in graph.steps
     )
-    broken = ClaimGraph(graph.inputs, graph.outputs, steps, ("==0",), (), {}, "")
+    broken = ClaimGraph(graph.inputs, graph.outputs, steps, ("==0",), (), (), {}, "")
     with pytest.raises(UndecidedError, match="magic"):
         normal_forms(broken)
 
