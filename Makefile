@@ -1,4 +1,4 @@
-# make demo | test | check | bench | soak | clean
+# make demo | test | check | bench | soak | docs | clean
 # Everything happens in .venv here; it is made when it is missing.
 
 PYTHON ?= python3
@@ -9,7 +9,7 @@ PIP := $(PY) -m pip --disable-pip-version-check install --quiet
 RRNN := $(PY) -m rrnn_opt.cli.start
 
 .DELETE_ON_ERROR:
-.PHONY: help demo test check dev bench soak clean
+.PHONY: help demo test check dev bench soak docs clean
 
 help:
 	@sed -n 's/^# make/make/p' Makefile
@@ -31,8 +31,12 @@ bench: $(VENV)/test.stamp
 soak: $(VENV)/test.stamp
 	$(PY) -m benchmarks.soak
 
+docs: $(VENV)/dev.stamp
+	$(PY) -m sphinx -q -W --keep-going -b html docs docs/_build/html
+	@echo docs/_build/html/index.html
+
 clean:
-	rm -rf build dist runs rrnn_opt.egg-info .pytest_cache .ruff_cache .mypy_cache \
+	rm -rf build docs/_build dist runs rrnn_opt.egg-info .pytest_cache .ruff_cache .mypy_cache \
 	  .hypothesis .import_linter_cache $(VENV)/demo.stamp $(VENV)/test.stamp \
 	  $(VENV)/dev.stamp
 	find . -name __pycache__ -not -path './$(VENV)/*' -prune -exec rm -rf {} +
