@@ -22,6 +22,7 @@ from rrnn_opt.errors import UndecidedError
 
 Number = Any  # flint.fmpq or flint.arb: python-flint has no usable stubs
 Table = Mapping[str, Callable[..., Number]]
+_Kind = tuple[Table, Callable[[Any], Number], str]
 
 FIRST_PRECISION, LAST_PRECISION = 64, 4096
 MAX_EXPONENT = 4096
@@ -40,7 +41,8 @@ class Replay:
     """What a point gives.
 
     Attributes:
-        signs: one of -1, 0, 1 for every element of every output.
+        signs: one of -1, 0, 1 for every element of every output; none for an
+            output whose signs were not asked for.
         trust: "exact" (rationals) or "arb" (balls).
         values: decimal text of the same elements.
     """
@@ -50,19 +52,22 @@ class Replay:
     values: tuple[tuple[str, ...], ...]
 
 
-def replay(graph: ClaimGraph, point: Mapping[Element, Fraction]) -> Replay:
-    """Certain signs of all outputs at a rational point.
+def replay(
+    graph: ClaimGraph, point: Mapping[Element, Fraction], *, skip: int | None = None
+) -> Replay:
+    """Certain signs of the outputs at a rational point.
 
     Args:
         graph: claim as read.
         point: a number for every (variable, element).
+        skip: an output that must be defined at the point, whatever its signs.
 
     Raises:
         UndecidedError: the graph is not defined there, holds an operation
             that is not known here, or a sign stays open at the last precision.
     """
     try:
-        return _replayed(graph, point, _RATIONALS, flint.fmpq, "exact")
+        return _replayed(graph, point, _EXACT, skip)
     except _IrrationalError:
         precision = FIRST_PRECISION
     except ZeroDivisionError:
@@ -70,7 +75,7 @@ def replay(graph: ClaimGraph, point: Mapping[Element, Fraction]) -> Replay:
     while precision <= LAST_PRECISION:
         try:
             with flint.ctx.workprec(precision):
-                return _replayed(graph, point, _BALLS, flint.arb, "arb")
+                return _replayed(graph, point, _BALL, skip)
         except _OpenError:
             precision *= 2
     raise UndecidedError(
@@ -82,10 +87,10 @@ def replay(graph: ClaimGraph, point: Mapping[Element, Fraction]) -> Replay:
 def _replayed(
     graph: ClaimGraph,
     point: Mapping[Element, Fraction],
-    table: Table,
-    number: Callable[[Any], Number],
-    trust: str,
+    kind: _Kind,
+    skip: int | None,
 ) -> Replay:
+    table, number, trust = kind
     zero = number(0)
     results = [[zero] * port.size for port in graph.outputs]
     values: list[Number] = []
@@ -100,7 +105,7 @@ def _replayed(
         else:
             values.append(_applied(step, values, table))
     return Replay(
-        tuple(tuple(_sign(value) for value in row) for row in results),
+        tuple(_signs(row, signed=k != skip) for k, row in enumerate(results)),
         trust,
         tuple(tuple(_text(value) for value in row) for row in results),
     )
@@ -121,6 +126,14 @@ def _applied(step: Step, values: Sequence[Number], table: Table) -> Number:
         return table[step.op](*(values[a] for a in step.args))
     except TypeError as error:
         raise UndecidedError(f"operation '{step.op}' has bad operands") from error
+
+
+def _signs(row: Sequence[Number], *, signed: bool) -> tuple[int, ...]:
+    if signed:
+        return tuple(_sign(value) for value in row)
+    if not all(isinstance(x, flint.fmpq) or x.is_finite() for x in row):
+        raise _OpenError
+    return ()
 
 
 def _sign(value: Number) -> int:
@@ -222,3 +235,5 @@ _BALLS: Table = _shared(_ARB) | {
     "tanh": _ARB.tanh,
     "hypot": lambda a, b: (a * a + b * b).sqrt(),
 }
+_EXACT: _Kind = (_RATIONALS, flint.fmpq, "exact")
+_BALL: _Kind = (_BALLS, flint.arb, "arb")

@@ -2,23 +2,38 @@
 
 from __future__ import annotations
 
-import itertools
 import time
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from rrnn_opt.check.claim_certificate import UNKNOWN, check_certificate
+from rrnn_opt.check.claim_answer import UNKNOWN
+from rrnn_opt.check.claim_certificate import CheckedCertificate, check_certificate
 from rrnn_opt.claim import Claim
-from rrnn_opt.errors import RrnnError, UnsupportedOperationError
+from rrnn_opt.errors import RrnnError, UndecidedError, UnsupportedOperationError
+from rrnn_opt.verification import falsify, normal
 from rrnn_opt.verification.document import Witness, certificate_document
-from rrnn_opt.verification.falsify import candidates
+from rrnn_opt.verification.engine import Engine
+from rrnn_opt.verification.inhabit import inhabitant
 from rrnn_opt.verification.verdict import Verdict
 
-Proposal = tuple[str, dict[str, Any]]
+ENGINES: tuple[Engine, ...] = (
+    Engine("identity", normal.propose_identity),
+    Engine("terms", normal.propose_terms),
+    Engine("falsifier", falsify.propose),
+)
+"""All engines, in the order in which they are tried."""
+
+BUDGET_S = 60.0
+"""Default wall time of all engines together, s."""
 
 
 def certify(
-    claim: Claim, *, witnesses: Sequence[Witness] = (), seed: int = 0
+    claim: Claim,
+    *,
+    witnesses: Sequence[Witness] = (),
+    engines: Sequence[str] | None = None,
+    budget_s: float = BUDGET_S,
+    seed: int = 0,
 ) -> Verdict:
     """Prove a claim, refute it, or say why neither was possible.
 
@@ -26,53 +41,99 @@ def certify(
     are the rationals that they are, and what CasADi simplified while the graph
     was built (``x / x`` to 1) is not part of it.
 
-    The engines, in order: exact identity, signs of terms, the given witnesses,
-    and a seeded search for a witness.  Each only proposes a certificate; the
-    verdict is the independent checker's.
+    The given witnesses come first, then the engines in the order of
+    :data:`ENGINES`.  Each only proposes a certificate; the verdict is the
+    independent checker's.  A proof also needs a point that keeps domain and
+    hypotheses: one of the given witnesses, or one that is searched for.
 
     Args:
         claim: what to settle.
-        witnesses: points that may refute it: numbers by variable, column by
-            column; floats stand for the exact rational numbers that they are.
-        seed: of the search.
+        witnesses: points that may refute it, or show that its hypotheses can
+            be kept: numbers by variable, column by column; floats stand for
+            the exact rational numbers that they are.
+        engines: names of the engines to try; None for all.
+        budget_s: wall time of all engines together, s; each gets an equal
+            share of what is left, and may overrun it by one step.
+        seed: of every search.
 
     Returns:
         The verdict.  UNKNOWN lists in ``residue`` what stopped each engine.
 
     Raises:
-        RrnnError: a witness lacks a variable, or holds a number that is not
-            finite.
+        RrnnError: an engine is not known, a witness lacks a variable, or holds
+            a number that is not finite.
     """
     begin = time.perf_counter()
+    chosen = _chosen(engines)
+    for point in witnesses:
+        _require_names(claim, point)
     fingerprint = ""
     residue: dict[str, str] = {}
     try:
         fingerprint = claim.fingerprint
-        for engine, document in _proposals(claim, witnesses, seed):
-            checked = check_certificate(document)
-            if checked.status != UNKNOWN:
+        for engine, checked in _answers(claim, witnesses, chosen, budget_s, seed):
+            if isinstance(checked, str):
+                residue.setdefault(engine, checked)
+            elif checked.status != UNKNOWN:
                 elapsed = time.perf_counter() - begin
                 return Verdict(fingerprint, engine, checked, (), elapsed)
-            residue.setdefault(engine, checked.reason)
+            else:
+                residue.setdefault(engine, checked.reason)
     except UnsupportedOperationError as error:
         residue["tape"] = str(error)
-    residue.setdefault("falsifier", "no point found that breaks the goal")
     reasons = tuple(f"{engine}: {reason}" for engine, reason in residue.items())
     elapsed = time.perf_counter() - begin
     return Verdict(fingerprint, residue=reasons, time_s=elapsed)
 
 
-def _proposals(
-    claim: Claim, witnesses: Sequence[Witness], seed: int
-) -> Iterator[Proposal]:
-    equation = claim.goal.sense == "==0"
-    for method in ("identity",) if equation else ("identity", "terms"):
-        yield method, certificate_document(claim, method)
+def _chosen(names: Sequence[str] | None) -> tuple[Engine, ...]:
+    known = {engine.name: engine for engine in ENGINES}
+    for name in names or ():
+        if name not in known:
+            raise RrnnError(f"engine '{name}': use one of {', '.join(known)}")
+    return tuple(e for e in ENGINES if names is None or e.name in names)
+
+
+def _require_names(claim: Claim, point: Witness) -> None:
     names = {symbol.name for symbol in claim.variables}
+    if set(point) != names:
+        raise RrnnError(f"{claim.id}: a witness names {', '.join(sorted(names))}")
+
+
+def _answers(
+    claim: Claim,
+    witnesses: Sequence[Witness],
+    engines: Sequence[Engine],
+    budget_s: float,
+    seed: int,
+) -> Iterator[tuple[str, CheckedCertificate | str]]:
+    """What the checker says of every proposal, or why there is none."""
     for point in witnesses:
-        if set(point) != names:
-            raise RrnnError(f"{claim.id}: a witness names {', '.join(sorted(names))}")
-        yield "witness", certificate_document(claim, "replay", witness=point)
-    if all(h.relation is not None for h in claim.hypotheses):
-        for point in itertools.islice(candidates(claim, seed=seed), 64):
-            yield "falsifier", certificate_document(claim, "replay", witness=point)
+        document = certificate_document(claim, "replay", witness=point)
+        yield "witness", check_certificate(document)
+    end = time.monotonic() + budget_s
+    inhabited = _Inhabited(claim, witnesses, seed)
+    for k, engine in enumerate(engines):
+        share = max(0.0, end - time.monotonic()) / (len(engines) - k)
+        try:
+            for document in engine.propose(claim, budget_s=share, seed=seed):
+                yield engine.name, check_certificate(inhabited.completed(document))
+        except UndecidedError as error:
+            yield engine.name, error.reason
+        except UnsupportedOperationError as error:
+            yield engine.name, str(error)
+
+
+class _Inhabited:
+    """Adds to proofs a point that keeps the hypotheses, searched for once."""
+
+    def __init__(self, claim: Claim, witnesses: Sequence[Witness], seed: int) -> None:
+        self._search = (claim, witnesses, seed)
+        self._known: list[Any] = []
+
+    def completed(self, document: dict[str, Any]) -> dict[str, Any]:
+        if document["witness"] is not None:
+            return document
+        if not self._known:
+            self._known.append(inhabitant(*self._search))
+        return document | {"witness": self._known[0]}

@@ -15,15 +15,21 @@ Witness = Mapping[str, Sequence[Fraction | int | float]]
 
 
 def certificate_document(
-    claim: Claim, method: str, *, witness: Witness | None = None
+    claim: Claim,
+    method: str,
+    *,
+    payload: Any = None,
+    witness: Witness | None = None,
 ) -> dict[str, Any]:
     """The document that asks the checker to settle a claim by one method.
 
     Args:
         claim: the claim.
-        method: "identity", "terms" or "replay".
-        witness: for "replay": numbers by variable, column by column; floats
-            stand for the exact rational numbers that they are.
+        method: name of a method of :mod:`rrnn_opt.check.claim_certificate`.
+        payload: what the method needs, as plain data.
+        witness: numbers by variable, column by column; floats stand for the
+            exact rational numbers that they are.  For "replay" the point that
+            breaks the goal, else one that keeps domain and hypotheses.
 
     Raises:
         UnsupportedOperationError: the graph holds an unknown operation.
@@ -35,6 +41,7 @@ def certificate_document(
         "schema": 1,
         "claim": claim_block(claim),
         "method": method,
+        "payload": payload,
         "witness": exact,
     }
 

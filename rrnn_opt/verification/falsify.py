@@ -7,14 +7,18 @@ is not offered: it speaks of the constants' last bits.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from fractions import Fraction
+from typing import Any
 
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.claim import Claim
+from rrnn_opt.errors import UndecidedError
+from rrnn_opt.verification.document import certificate_document
 
 Array = NDArray[np.float64]
 Point = dict[str, list[Fraction]]
@@ -53,6 +57,36 @@ def candidates(
                 yield _named(claim, point)
 
 
+def propose(claim: Claim, *, budget_s: float, seed: int) -> Iterator[dict[str, Any]]:
+    """Certificates that ask to replay the candidates.
+
+    Raises:
+        UndecidedError: nothing was found, or nothing can be replayed.
+    """
+    worded = [h.id for h in claim.hypotheses if h.relation is None]
+    if worded:
+        named = ", ".join(worded)
+        raise UndecidedError(f"hypotheses in words only ({named}) cannot be replayed")
+    found = False
+    for point in itertools.islice(candidates(claim, seed=seed), 64):
+        found = True
+        yield certificate_document(claim, "replay", witness=point)
+    if not found:
+        raise UndecidedError("no point found that breaks the goal")
+
+
+def keepers(claim: Claim, *, seed: int = 0, samples: int = 256) -> Iterator[Point]:
+    """Points in the domain that keep the hypotheses in floating point."""
+    rng = np.random.default_rng(seed)
+    score = _Score(claim)
+    lower, upper = _box(claim)
+    for _ in range(samples):
+        for point in _simpler(_draw(rng, lower, upper), lower, upper):
+            if score.keeps(point):
+                yield _named(claim, point)
+                break
+
+
 class _Score:
     """How far a point breaks the goal; -inf where it is of no use."""
 
@@ -64,13 +98,21 @@ class _Score:
         parts = ca.vertsplit(flat, [0, *np.cumsum([s.size for s in claim.variables])])
         self._function = ca.Function("score", [flat], ca.substitute(y, x, parts))
 
-    def __call__(self, point: Array) -> float:
-        """Positive when the goal is broken and every hypothesis is kept."""
+    def _breaches(self, point: Array) -> list[float]:
         results = self._function.call([ca.DM(point)])
         values = [np.asarray(v, dtype=np.float64).ravel() for v in results]
-        breaks = [
+        return [
             _breach(v, r.sense) for v, r in zip(values, self._relations, strict=True)
         ]
+
+    def keeps(self, point: Array) -> bool:
+        """Whether the point keeps every hypothesis, and the goal is defined."""
+        breaks = self._breaches(point)
+        return bool(np.all(np.isfinite(breaks))) and max(breaks[1:], default=0) <= 0
+
+    def __call__(self, point: Array) -> float:
+        """Positive when the goal is broken and every hypothesis is kept."""
+        breaks = self._breaches(point)
         if not all(np.isfinite(breaks)):
             return -np.inf
         kept = max(breaks[1:], default=0.0)
@@ -127,8 +169,19 @@ def _simpler(point: Array, lower: Array, upper: Array) -> Iterator[Array]:
 
 
 def _named(claim: Claim, point: Array) -> Point:
+    """Exact numbers by variable, moved into the exact domain where they round out."""
     numbers = iter(point.tolist())
-    return {
+    named = {
         symbol.name: [Fraction(next(numbers)) for _ in range(symbol.size)]
         for symbol in claim.variables
     }
+    for interval in claim.domain:
+        values = named[interval.variable]
+        sides = zip(values, interval.lower, interval.upper, strict=True)
+        named[interval.variable] = [_clipped(x, low, high) for x, low, high in sides]
+    return named
+
+
+def _clipped(x: Fraction, low: Fraction | None, high: Fraction | None) -> Fraction:
+    x = x if low is None else max(x, low)
+    return x if high is None else min(x, high)

@@ -58,9 +58,28 @@ def test_an_identity_proves_no_strict_inequality():
 
 
 def test_where_operations_may_be_undefined_that_is_an_assumption():
-    checked = check((x + y[0]) / y[1] - x / y[1] - y[0] / y[1])
+    quotient = (x + y[0]) / y[1] - x / y[1] - y[0] / y[1]
+    checked = check(quotient, witness=POINT)
     assert checked.status == "HOLDS_UNDER"
     assert checked.assumptions == ("D1: every operation of the graph is defined (inv)",)
+    assert check(quotient).status == "UNKNOWN"  # perhaps it never is
+    assert check(quotient, witness=POINT | {"y": (0, 0)}).status == "UNKNOWN"
+
+
+def test_a_proof_is_of_something():
+    positive = Hypothesis("A1", "", Relation(x, ">0"))
+    negative = Hypothesis("A2", "", Relation(-x, ">=0"))
+
+    def status(*hypotheses, witness=POINT, **more):
+        return check(IDENTITY, hypotheses=hypotheses, witness=witness, **more).status
+
+    assert status(positive) == "PROVED"
+    assert status(positive, witness=None) == "UNKNOWN"
+    assert status(negative) == "UNKNOWN"
+    assert status(positive, negative) == "UNKNOWN"
+    outside = Range("x", (Fraction(2),), (Fraction(3),))
+    assert status(domain=(outside,)) == "UNKNOWN"
+    assert status(witness=None) == "PROVED"
 
 
 @pytest.mark.parametrize(
@@ -173,6 +192,8 @@ def test_a_document_that_says_too_much_does_not_hold():
     refuted = certificate_document(claim(x), "replay", witness=POINT)
     assert check_certificate(refuted).holds
     assert not check_certificate(refuted | {"status": "PROVED"}).holds
+    assert not check_certificate(refuted | {"trust": "arb"}).holds
+    assert not check_certificate(refuted | {"assumptions": ["A1"]}).holds
 
 
 @pytest.mark.parametrize(
@@ -226,9 +247,10 @@ def test_only_the_checker_makes_a_verdict():
 
 def test_what_the_source_does_not_state_is_an_assumption():
     added = Hypothesis("A1", "x is not negative", Relation(x, ">=0"), added=True)
-    checked = check(IDENTITY, hypotheses=(added,))
+    checked = check(IDENTITY, hypotheses=(added,), witness=POINT)
     assert checked.status == "HOLDS_UNDER"
     assert checked.assumptions == ("A1: x is not negative",)
-    stated = certificate_document(claim(IDENTITY, hypotheses=(added,)), "identity")
+    unaltered = claim(IDENTITY, hypotheses=(added,))
+    stated = certificate_document(unaltered, "identity", witness=POINT)
     stated["claim"]["hypotheses"][0][3] = False
     assert check_certificate(stated).status == "UNKNOWN"  # another claim

@@ -99,6 +99,22 @@ def test_a_breach_of_rounding_size_is_no_witness():
     assert "largest coefficient" in verdict.reason
 
 
+def test_contradictory_hypotheses_prove_nothing():
+    positive = Hypothesis("A1", "", Relation(x, ">0"))
+    negative = Hypothesis("A2", "", Relation(x, "<=0"))
+    verdict = certify(claim(x**2, ">=0", hypotheses=(positive, negative)))
+    assert verdict.status is Status.UNKNOWN
+    assert "no witness shows that the hypotheses can be kept" in verdict.reason
+    assert certify(claim(x**2, ">=0", hypotheses=(positive,))).status == "PROVED"
+
+
+def test_engines_can_be_chosen():
+    assert certify(claim(x**2, ">=0"), engines=("terms",)).engine == "terms"
+    assert certify(claim(x**2, ">=0"), engines=("identity",)).status == "UNKNOWN"
+    with pytest.raises(RrnnError, match="use one of identity, terms"):
+        certify(claim(x), engines=("oracle",))
+
+
 def test_an_operation_outside_the_table_is_unknown():
     verdict = certify(claim(ca.erf(x) - ca.erf(y[0])))
     assert verdict.status is Status.UNKNOWN
