@@ -89,8 +89,10 @@ def source(kernel: Kernel, words: dict[str, str], real: Real) -> str:
         "source.c",
         words
         | {
-            "prologue": prologue(real),
-            "kernel": c_function(kernel.tape, f"{prefix}_kernel", real=real),
+            "prologue": prologue(real, compact=True),
+            "kernel": c_function(
+                kernel.tape, f"{prefix}_kernel", real=real, compact=True
+            ),
             "kernel_call": f"{prefix}_kernel({', '.join(call)})",
             "largest": _LARGEST[real],
             "bound_arrays": f"    real_t lower[{n}];\n    real_t upper[{n}];\n"

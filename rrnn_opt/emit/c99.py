@@ -58,13 +58,19 @@ _WORDS = frozenset(
         """auto break case char const continue default do double else enum extern float
         for goto if inline int long register restrict return short signed sizeof
         static struct switch typedef union unsigned void volatile while
-        real_t rrnn_sincos rrnn_sincos_t sqrt fabs floor ceil copysign NAN INFINITY""",
+        real_t rrnn_sincos rrnn_sincos_t rrnn_turn rrnn_k
+        rrnn_angle sqrt fabs floor ceil copysign NAN INFINITY""",
     )
 ) | {name + f for name in LIBRARY for f in ("", "f")}
 
 
 def c_function(
-    fn: ca.Function | Tape, name: str, *, real: Real = "double", static: bool = True
+    fn: ca.Function | Tape,
+    name: str,
+    *,
+    real: Real = "double",
+    static: bool = True,
+    compact: bool = False,
 ) -> str:
     """Emit ``void NAME(const real_t q[7], ..., real_t out[3])``.
 
@@ -75,6 +81,7 @@ def c_function(
         real: type that ``real_t`` stands for; fixes literals and library calls.
         static: internal linkage; otherwise the function is exported and
             preceded by its prototype.
+        compact: sines and cosines of arguments in one loop, for small code.
 
     Returns:
         C99 text that follows :func:`rrnn_opt.emit.prologue`. Matrices are dense
@@ -90,7 +97,7 @@ def c_function(
     head = _signature(tape, require_identifier(name), names)
     linkage = "static" if static else f"RRNN_EXPORT {head};\n"
     lines = [_comment(tape, name), f"{linkage} {head}".replace("\n ", "\n"), "{"]
-    lines += [f"    {line}" for line in _body(tape, names, real)]
+    lines += [f"    {line}" for line in _body(tape, names, real, compact)]
     return "\n".join([*lines, "}", ""])
 
 
@@ -157,8 +164,10 @@ def _comment(tape: Tape, name: str) -> str:
     )
 
 
-def _body(tape: Tape, names: list[str], real: Real) -> Iterator[str]:
+def _body(tape: Tape, names: list[str], real: Real, compact: bool) -> Iterator[str]:
     text = _Operands(tape, real)
+    if compact:
+        yield from text.turn(tape, names)
     used = {
         step.slot[0] for step in tape.instructions if step.op == "input" and step.slot
     }
@@ -185,24 +194,52 @@ class _Operands:
     def __init__(self, tape: Tape, real: Real) -> None:
         self.of: dict[int, str] = {}
         self._real: Real = real
-        self._pairs: set[int] = set()
+        self._pairs: dict[int, str] = {}
+        self._turned: set[int] = set()
         self._words = {
             "zero": literal(0.0, real),
             "one": literal(1.0, real),
             "f": "f" if real == "float" else "",
         }
 
+    def turn(self, tape: Tape, names: list[str]) -> Iterator[str]:
+        """Lines that turn through all angles that are elements of arguments."""
+        steps = tape.instructions
+        angles = {s.args[0] for s in steps if s.op in ("sin", "cos")}
+        slots = {a: slot for a in sorted(angles) if (slot := steps[a].slot)}
+        if len(slots) < 2:
+            return
+        first, count = next(iter(slots.values())), len(slots)
+        run = [(first[0], first[1] + k) for k in range(count)]
+        if list(slots.values()) == run:
+            start = f" + {first[1]}U" * (first[1] > 0)
+            angle = f"{names[first[0]]}[rrnn_k{start}]"
+        else:
+            listed = ", ".join(f"{names[k]}[{e}]" for k, e in slots.values())
+            yield f"const real_t rrnn_angle[{count}] = {{{listed}}};"
+            angle = "rrnn_angle[rrnn_k]"
+        yield f"rrnn_sincos_t rrnn_turn[{count}];"
+        yield "size_t rrnn_k;"
+        yield f"for (rrnn_k = 0U; rrnn_k < {count}U; ++rrnn_k) {{"
+        yield f"    rrnn_turn[rrnn_k] = rrnn_sincos({angle});"
+        yield "}"
+        self._pairs = {a: f"rrnn_turn[{k}]" for k, a in enumerate(slots)}
+        read = {a for s in steps if s.op not in ("sin", "cos") for a in s.args}
+        self._turned = set(slots) - read
+
     def define(self, step: Instruction, names: list[str]) -> Iterator[str]:
         """Lines that define the value of one instruction."""
+        if step.out in self._turned:
+            return
         if step.const is not None:
             self.of[step.out] = literal(step.const, self._real)
             return
         if step.op in ("sin", "cos"):
             arg = step.args[0]
             if arg not in self._pairs:
-                self._pairs.add(arg)
+                self._pairs[arg] = f"p{arg}"
                 yield f"const rrnn_sincos_t p{arg} = rrnn_sincos({self.of[arg]});"
-            self.of[step.out] = f"p{arg}.{step.op[0]}"
+            self.of[step.out] = f"{self._pairs[arg]}.{step.op[0]}"
             return
         self.of[step.out] = f"t{step.out}"
         if step.slot is not None:

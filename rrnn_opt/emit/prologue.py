@@ -35,7 +35,9 @@ typedef {real} real_t;
 """
 
 
-def prologue(real: Real = "double", *, support: Sequence[str] = ()) -> str:
+def prologue(
+    real: Real = "double", *, support: Sequence[str] = (), compact: bool = False
+) -> str:
     """Text that opens a translation unit.
 
     It defines ``real_t``, ``RRNN_C(0.5)`` (a literal of that type),
@@ -46,6 +48,8 @@ def prologue(real: Real = "double", *, support: Sequence[str] = ()) -> str:
         real: C type of ``real_t``.
         support: further headers of ``emit/support`` to inline, in this order,
             e.g. ``("hildreth.h",)``.
+        compact: sine and cosine of the same bits for a microcontroller: small,
+            and always the same number of instructions.
 
     Returns:
         C99 text without dependencies other than the standard headers.
@@ -53,7 +57,8 @@ def prologue(real: Real = "double", *, support: Sequence[str] = ()) -> str:
     literal = "literal##F" if require_real(real) == "float" else "literal"
     suffix = "f" if real == "float" else ""
     head = _HEAD.format(real=real, literal=literal, f=suffix)
-    parts = [support_text(name) for name in (f"sincos_{real}.h", *support)]
+    turn = "compact" if compact else "sincos"
+    parts = [support_text(name) for name in (f"{turn}_{real}.h", *support)]
     return "\n".join([head, *parts])
 
 
