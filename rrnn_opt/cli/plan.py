@@ -62,6 +62,7 @@ def run(args: argparse.Namespace, out: Output) -> int:
         time_limit=args.time_limit,
         max_explorations=args.max_explorations,
         on_progress=_progress(),
+        keep_trees=target is not None,
     )
     document = result.to_dict()
     out.document(document)

@@ -24,6 +24,7 @@ from rrnn_opt.planning.runtime_library import Runtime, Search
 from rrnn_opt.planning.searches import open_search, runtime_for
 from rrnn_opt.planning.settings import PLANNERS, PlannerSettings, RandomRnn
 from rrnn_opt.planning.structs import SearchCounts
+from rrnn_opt.planning.trees import tree_document
 
 Array = NDArray[np.float64]
 Progress = Callable[[str, int], None]
@@ -45,6 +46,8 @@ class _Run:
     path: Array | None = None
     trajectory: Trajectory | None = None
     certificate: dict[str, Any] | None = None
+    keep_trees: bool = False
+    trees: dict[str, Any] = field(default_factory=dict)
     times: dict[str, Any] = field(default_factory=dict)
 
     def result(self, status: str, message: str, **more: Any) -> PlanResult:
@@ -60,6 +63,7 @@ class _Run:
             path=self.path,
             trajectory=None if self.trajectory is None else self.trajectory.to_dict(),
             stats=self._stats(),
+            trees=self.trees,
             **more,
         )
 
@@ -88,6 +92,7 @@ def plan(
     time_limit: float | None = None,
     max_explorations: int = DEFAULT_EXPLORATIONS,
     on_progress: Progress | None = None,
+    keep_trees: bool = False,
 ) -> PlanResult:
     """Plan, shorten, retime and certify.
 
@@ -102,6 +107,7 @@ def plan(
         time_limit: seconds for the search, or None.
         max_explorations: rollouts started at most.
         on_progress: called with the stage and the explorations so far.
+        keep_trees: also hand out both trees, nodes and parents, for pictures.
 
     Returns:
         A result in every case that the problem's data allow; see its status.
@@ -115,6 +121,7 @@ def plan(
     if max_explorations < 1 or (time_limit is not None and not time_limit > 0.0):
         raise ProblemError("budget", "explorations and time limit must be positive")
     run = _Run(problem, seed, planner, chosen, time.perf_counter())
+    run.keep_trees = keep_trees
     begin = time.perf_counter()
     runtime = runtime_for(problem.robot, chosen)
     run.times["compile_time_s"] = time.perf_counter() - begin
@@ -179,6 +186,8 @@ def _search(
         run.times["plan_time_s"] = time.perf_counter() - begin
         run.counts = search.counts()
         run.activity = tuple(float(x) for x in search.activity())
+        if run.keep_trees:
+            run.trees = tree_document(search)
     return status
 
 

@@ -102,6 +102,7 @@ class PlanResult:
         seed: seed of the search.
         planner: name of the planner.
         witness: what makes an infeasible problem so, or {}.
+        trees: both trees of the search, for pictures, or {}; see ``plan``.
     """
 
     status: str
@@ -115,6 +116,7 @@ class PlanResult:
     certificate: dict[str, Any] = field(default_factory=lambda: dict(NO_CERTIFICATE))
     stats: PlanStats = PlanStats()
     witness: dict[str, Any] = field(default_factory=dict)
+    trees: dict[str, Any] = field(default_factory=dict)
 
     @property
     def exit_code(self) -> int:
@@ -141,8 +143,9 @@ class PlanResult:
             "planner": self.planner,
             "versions": versions(),
         }
-        if self.witness:
-            document["witness"] = self.witness
+        for key in ("witness", "trees"):
+            if getattr(self, key):
+                document[key] = getattr(self, key)
         return document
 
 

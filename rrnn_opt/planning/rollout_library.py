@@ -18,7 +18,13 @@ from rrnn_opt.planning.feasibility import OpenGoals
 from rrnn_opt.planning.rollout_kernel import rollout_source
 from rrnn_opt.planning.rollout_settings import PaperRnn, RolloutSettings
 from rrnn_opt.planning.rollout_structs import RolloutStruct, rollout_struct
-from rrnn_opt.planning.runtime_library import FLAGS, STATUS, Runtime, Search
+from rrnn_opt.planning.runtime_library import (
+    FLAGS,
+    STATUS,
+    Runtime,
+    Search,
+    Tree,
+)
 from rrnn_opt.planning.settings import RandomRnn
 from rrnn_opt.planning.structs import Request
 from rrnn_opt.robot import Robot
@@ -132,6 +138,12 @@ class RolloutSearch(Search):
             pointer = postures[i].ctypes.data
             parents[i] = self._rolled("rollouts_node", ct.c_int32, types, i, pointer)
         return postures, parents
+
+    def trees(self, most: int | None = None) -> tuple[Tree, Tree]:
+        """T_s, and the tree from the goals, which the print does not have."""
+        postures, parents = self.nodes()
+        none = np.zeros((0, self._nv)), np.zeros(0, np.int64)
+        return (postures[:most], parents[:most]), none
 
     def way(self, node: int) -> Array:
         """Waypoints from the start to a node of T_s, (N, nv)."""

@@ -26,6 +26,7 @@ from rrnn_opt.planning.structs import (
 from rrnn_opt.robot import Robot
 
 Array = NDArray[np.float64]
+Tree = tuple[Array, NDArray[np.int64]]
 FLAGS = ("-O3",)
 """Loops over spheres vectorise at this level; it changes no rounding."""
 STATUS = {0: "paused", 1: "solved", 2: "budget_exhausted", 3: "no_goal_posture"}
@@ -182,17 +183,22 @@ class Search:
         pointer = self._call("cells", ct.POINTER(ct.c_double), ())
         return np.ctypeslib.as_array(pointer, (total,)).copy()
 
-    def trees(self) -> tuple[tuple[Array, NDArray[np.int64]], ...]:
-        """Nodes (N, nv) and parents (N,) of the start's and the goals' tree."""
+    def trees(self, most: int | None = None) -> tuple[Tree, Tree]:
+        """Nodes (N, nv) and parents (N,) of the start's and the goals' tree.
+
+        Args:
+            most: nodes of each, the first ones; all without it.
+        """
+        return self._tree(0, most), self._tree(1, most)
+
+    def _tree(self, side: int, most: int | None) -> Tree:
         types = (ct.c_int32, ct.c_int32, ct.c_void_p, ct.POINTER(ct.c_int32))
-        result = []
-        for side in (0, 1):
-            parent, q = ct.c_int32(), np.zeros(self._nv)
-            arguments = (q.ctypes.data, ct.byref(parent))
-            total = self._call("node", ct.c_int32, types, side, -1, *arguments)
-            nodes, parents = np.zeros((total, self._nv)), np.zeros(total, np.int64)
-            for i in range(total):
-                self._call("node", ct.c_int32, types, side, i, *arguments)
-                nodes[i], parents[i] = q, parent.value
-            result.append((nodes, parents))
-        return tuple(result)
+        parent, q = ct.c_int32(), np.zeros(self._nv)
+        arguments = (q.ctypes.data, ct.byref(parent))
+        total = self._call("node", ct.c_int32, types, side, -1, *arguments)
+        total = total if most is None else min(total, most)
+        nodes, parents = np.zeros((total, self._nv)), np.zeros(total, np.int64)
+        for i in range(total):
+            self._call("node", ct.c_int32, types, side, i, *arguments)
+            nodes[i], parents[i] = q, parent.value
+        return nodes, parents

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.report.motion import Motion
+from rrnn_opt.report.palette import NEAREST
 
 Array = NDArray[np.float64]
 
@@ -52,13 +53,22 @@ def memory_cell(axes: Any, activity: Array) -> None:
     axes.xaxis.get_major_locator().set_params(integer=True)
 
 
-def clearance(axes: Any, motion: Motion, distance: Array, proved: Any) -> None:
-    """Distance to the obstacles at the samples, with the proved bound."""
+def clearance(
+    axes: Any, motion: Motion, distance: Array, proved: Any, closest: str = ""
+) -> None:
+    """Distance to the obstacles at the samples, with the proved bound.
+
+    ``closest`` says in words between what the least of them is.
+    """
     axes.plot(motion.t, 1e3 * distance, color=CURVES[0], lw=1.4, label="sampled")
     axes.axhline(0.0, color=LIMIT, lw=1.0, ls=(0, (4, 3)))
     if proved is not None:
         text = f"proved: at least {1e3 * proved:.3g} mm"
         axes.axhline(1e3 * proved, color=CURVES[2], lw=1.0, label=text)
+    if closest:
+        least = int(np.argmin(distance))
+        place, label = (motion.t[least], 1e3 * distance[least]), _literal(closest, 60)
+        axes.plot(*place, "o", mec=NEAREST, mfc="none", ms=7, mew=1.5, label=label)
     top = float(1e3 * distance.max())
     axes.set_ylim(min(-0.08 * top, 1.1e3 * float(distance.min())), 1.12 * top + 1e-9)
     dress(axes, "clearance to obstacles [mm]", "time [s]", motion.t)
@@ -84,13 +94,13 @@ def _numbered(count: int) -> list[str]:
     return [f"q{k + 1}" for k in range(count)]
 
 
-def _literal(name: object) -> str:
+def _literal(name: object, longest: int = LONGEST) -> str:
     """A short name that matplotlib takes neither for a formula nor for hidden."""
     text = str(name)
     text = (
         text
-        if len(text) <= LONGEST
-        else text[: LONGEST - 1] + "\N{HORIZONTAL ELLIPSIS}"
+        if len(text) <= longest
+        else text[: longest - 1] + "\N{HORIZONTAL ELLIPSIS}"
     )
     text = text.replace("$", r"\$")
     return f" {text}" if text.startswith("_") else text

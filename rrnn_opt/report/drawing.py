@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 from rrnn_opt.errors import DocumentError
 from rrnn_opt.report.body import Part, parts_of, spheres_of
 from rrnn_opt.report.camera import View, best_view
-from rrnn_opt.report.clearance import sampled_clearance
+from rrnn_opt.report.clearance import Approach, sampled_clearance
 from rrnn_opt.report.mesh import Mesh, merged
 from rrnn_opt.report.motion import Motion, motion_of
 from rrnn_opt.report.pose import joint_frames, sphere_centres, tip_positions
 from rrnn_opt.report.stage import Workspace, drawn, obstacles_of, workspace
+from rrnn_opt.report.traces import tool_traces
 from rrnn_opt.scene.shapes import Obstacle
 
 Array = NDArray[np.float64]
@@ -40,6 +41,8 @@ class Drawing:
         solids: meshes of what the box shows of them, finely tiled.
         missing: names of obstacles that cannot be drawn.
         distance: sampled clearance to the obstacles, (n,), m, or None.
+        closest: where the motion comes nearest to one of ``shapes``, or None.
+        traces: tool traces of the trees, "start" and "goal", each (k, 2, 3), m.
         view: direction to look from.
     """
 
@@ -55,6 +58,8 @@ class Drawing:
     solids: list[Mesh]
     missing: list[str]
     distance: Array | None
+    closest: Approach | None
+    traces: dict[str, Array]
     view: View
 
 
@@ -81,7 +86,9 @@ def _drawing(document: dict[str, Any]) -> Drawing:
     frames = joint_frames(robot, motion.q)
     tip = tip_positions(robot, frames)
     targets, goals = _goals(document)
-    space = workspace(_extent(robot, frames, tip, targets), margin=0.12)
+    traces = tool_traces(document)
+    seen = [tip, targets, *traces.values()]
+    space = workspace(_extent(robot, frames, seen), margin=0.12)
     shapes, missing = obstacles_of(document)
     tile = space.size / TILES
     solids = [drawn(shape, space, tile=tile) for shape in shapes]
@@ -90,7 +97,7 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         for shape, solid in zip(shapes, solids, strict=True)
         if not len(solid.quads)
     ]
-    distance = sampled_clearance(robot, shapes, motion.q) if motion.moves else None
+    near = sampled_clearance(robot, shapes, motion.q) if motion.moves else None
     return Drawing(
         motion=motion,
         frames=frames,
@@ -103,7 +110,9 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         shapes=shapes,
         solids=[solid for solid in solids if len(solid.quads)],
         missing=missing + outside,
-        distance=distance,
+        distance=None if near is None else near.distance,
+        closest=None if near is None else near.closest,
+        traces=traces,
         view=best_view(
             _watched(frames, tip, targets), merged(solids).corners, cell=tile
         ),
@@ -119,12 +128,12 @@ def _goals(document: dict[str, Any]) -> tuple[Array, list[Array]]:
     return np.asarray(positions, dtype=float).reshape(-1, 3), joints
 
 
-def _extent(robot: dict[str, Any], frames: Array, tip: Array, targets: Array) -> Array:
+def _extent(robot: dict[str, Any], frames: Array, seen: list[Array]) -> Array:
     """Points that have to be inside the picture, (n, 3), m."""
     centres, radii = sphere_centres(robot, frames)
     around = [centres + sign * radii[:, None] for sign in (-1.0, 1.0)]
     origins = frames[:, :, :3, 3]
-    points = [np.zeros((1, 3)), tip, targets, origins, *around]
+    points = [np.zeros((1, 3)), *seen, origins, *around]
     return np.concatenate([p.reshape(-1, 3) for p in points])
 
 

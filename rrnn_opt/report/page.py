@@ -17,6 +17,7 @@ from typing import Any
 
 from rrnn_opt.report.drawing import Drawing, drawing_of
 from rrnn_opt.report.files import write_text
+from rrnn_opt.report.key import nearest_approach
 from rrnn_opt.report.picture import chart_list, picture
 from rrnn_opt.report.viewer import INSTALL, scene_html
 
@@ -52,7 +53,7 @@ def page(document: dict[str, Any]) -> str:
         message=html.escape(str(document.get("message", ""))),
         scene=_scene(document, drawing),
         charts="".join(_svg(panel) for panel in chart_list(document, drawing)),
-        rows=_rows(document),
+        rows=_rows(document, drawing),
     )
 
 
@@ -84,11 +85,12 @@ def _svg(panel: Any) -> str:
     return f"<figure>{drawn[drawn.index('<svg') :]}</figure>"
 
 
-def _rows(document: dict[str, Any]) -> str:
+def _rows(document: dict[str, Any], drawing: Drawing) -> str:
     """The summary table: certificate, statistics, versions."""
     parts = []
     plain = {key: document.get(key) for key in ("planner", "seed")}
     plain["duration [s]"] = (document.get("trajectory") or {}).get("duration")
+    plain["closest approach (sampled)"] = nearest_approach(drawing) or None
     groups = [("run", plain)] + [
         (key, document.get(key) or {}) for key in ("certificate", "stats", "versions")
     ]

@@ -62,6 +62,27 @@ class Painter:
         self._faces.append(self.project(corners))
         self._colours.append(rgba)
 
+    def ribbons(self, pieces: Array, width: float, colour: Any, alpha: float) -> None:
+        """Add straight lines (k, 2, 3) as flat ribbons that face the viewer.
+
+        Args:
+            pieces: ends of each line, m.
+            width: m.
+            colour: any matplotlib colour.
+            alpha: opacity.
+        """
+        from matplotlib.colors import to_rgba
+
+        shown = self.project(pieces)
+        along = shown[:, 1, :2] - shown[:, 0, :2]
+        length = np.maximum(np.linalg.norm(along, axis=1), 1e-12)[:, None]
+        across = np.zeros((len(pieces), 3))
+        across[:, :2] = 0.5 * width * along[:, ::-1] * (-1.0, 1.0) / length
+        a, b = shown[:, 0], shown[:, 1]
+        sides = (a - across, b - across, b + across, a + across)
+        self._faces.append(np.stack(sides, axis=1))
+        self._colours.append(np.tile(to_rgba(colour, alpha), (len(pieces), 1)))
+
     def lines(self, grid: Array) -> None:
         """Add the lines of a grid of points, (m, n, 3), behind everything."""
         shown = self.project(grid)[..., :2]

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 START, END, TARGET, OBSTACLE = "#aab2bf", "#3b6fb6", "#c0233b", "#c96f4a"
+NEAREST, TREES = "#d11f8d", {"start": "#2a9d8f", "goal": "#8a5cc7"}
 PLATE, SHELL, GRID = "#6b7280", "#8893a5", "#d5d9e0"
 
 

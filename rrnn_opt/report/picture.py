@@ -11,19 +11,23 @@ from numpy.typing import NDArray
 
 from rrnn_opt.report import charts, mesh
 from rrnn_opt.report.charts import INK
-from rrnn_opt.report.drawing import Drawing, drawing_of
+from rrnn_opt.report.drawing import TILES, Drawing, drawing_of
 from rrnn_opt.report.files import write_bytes
+from rrnn_opt.report.key import draw_key, nearest_approach
 from rrnn_opt.report.painter import Painter
 from rrnn_opt.report.palette import (
     END,
     GRID,
+    NEAREST,
     OBSTACLE,
     PLATE,
     SHELL,
     START,
     TARGET,
+    TREES,
     time_colours,
 )
+from rrnn_opt.report.stage import drawn
 
 Array = NDArray[np.float64]
 
@@ -31,7 +35,6 @@ DPI = 110
 OVERSAMPLING = 2
 GHOSTS = 5
 APART = 0.01
-NOTE: dict[str, Any] = {"fontsize": 8, "color": "#5b6270", "parse_math": False}
 
 
 def draw_plan(document: dict[str, Any], path: str | Path) -> None:
@@ -84,8 +87,11 @@ def chart_list(document: dict[str, Any], drawing: Drawing) -> list[Any]:
     if cell.size:
         found.append(lambda axes: charts.memory_cell(axes, cell))
     if distance is not None and motion.qd is not None:
+        closest = nearest_approach(drawing)
         proved = (document.get("certificate") or {}).get("clearance_lower_bound")
-        found.append(lambda axes: charts.clearance(axes, motion, distance, proved))
+        found.append(
+            lambda axes: charts.clearance(axes, motion, distance, proved, closest)
+        )
     return found
 
 
@@ -110,6 +116,9 @@ def _scene(axes: Any, drawing: Drawing) -> None:
     painter.lines(grid)
     for solid in drawing.solids:
         painter.add(solid, OBSTACLE, alpha=0.36)
+    for side, traces in drawing.traces.items():
+        painter.ribbons(traces, 0.003 * space.size, TREES[side], 0.75)
+    _nearest(painter, drawing)
     _postures(painter, drawing)
     colours = time_colours(len(drawing.tip))
     pieces = zip(drawing.tip[:-1], drawing.tip[1:], colours, strict=False)
@@ -123,6 +132,20 @@ def _scene(axes: Any, drawing: Drawing) -> None:
     for x, y, _ in painter.project(drawing.targets):
         axes.plot(x, y, "o", ms=15, mfc="none", mec=TARGET, mew=1.6)
         axes.plot(x, y, "+", ms=9, color=TARGET, mew=1.6)
+    if drawing.closest is not None:
+        x, y, _ = painter.project(drawing.closest.ends).mean(axis=0)
+        axes.plot(x, y, "o", ms=17, mfc="none", mec=NEAREST, mew=1.8)
+
+
+def _nearest(painter: Painter, drawing: Drawing) -> None:
+    """The obstacle that the motion comes nearest to, its faces tinted."""
+    if drawing.closest is None:
+        return
+    space = drawing.space
+    shape = drawing.shapes[drawing.closest.obstacle]
+    solid = drawn(shape, space, tile=space.size / TILES)
+    painter.add(solid, NEAREST, alpha=0.16)
+    painter.ribbons(drawing.closest.ends[None], 0.008 * space.size, NEAREST, 1.0)
 
 
 def _postures(painter: Painter, drawing: Drawing) -> None:
@@ -171,37 +194,7 @@ def _title(figure: Any, document: dict[str, Any], drawing: Drawing) -> None:
         color="#5b6270",
         parse_math=False,
     )
-    _key(figure, drawing)
-
-
-def _key(figure: Any, drawing: Drawing) -> None:
-    """What the colours mean, in one line under the scene."""
-    entries = [(START, "start")]
-    if drawing.motion.moves:
-        entries.append((END, "end"))
-    if len(drawing.targets):
-        entries.append((TARGET, "target"))
-    if drawing.solids:
-        entries.append((OBSTACLE, "obstacles, cut at the frame"))
-    x = 0.02
-    for colour, text in entries:
-        figure.text(x, 0.022, "\N{BLACK CIRCLE}", fontsize=10, color=colour)
-        figure.text(x + 0.012, 0.024, text, **NOTE)
-        x += 0.03 + 0.0052 * len(text)
-    if drawing.motion.moves:
-        bar = figure.add_axes((x, 0.026, 0.07, 0.011))
-        bar.imshow(time_colours(64)[None, :, :3], aspect="auto")
-        bar.set_axis_off()
-        figure.text(x + 0.076, 0.024, "time along the tip path", **NOTE)
-        x += 0.21
-    if drawing.missing:
-        figure.text(x, 0.024, "not drawn: " + _some(drawing.missing), **NOTE)
-
-
-def _some(names: list[str]) -> str:
-    """The first names, and how many more there are."""
-    more = len(names) - 2
-    return ", ".join(names[:2]) + (f" and {more} more" if more > 0 else "")
+    draw_key(figure, drawing)
 
 
 def _places(count: int) -> list[tuple[float, float, float, float]]:

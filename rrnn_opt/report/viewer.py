@@ -15,11 +15,13 @@ from rrnn_opt.report.mesh import Mesh, merged
 from rrnn_opt.report.palette import (
     END,
     GRID,
+    NEAREST,
     OBSTACLE,
     PLATE,
     SHELL,
     START,
     TARGET,
+    TREES,
     rgb,
     time_colours,
 )
@@ -50,6 +52,7 @@ def scene_html(drawing: Drawing) -> str | None:
         server.scene.set_up_direction("+z")
         _camera(server, drawing)
         _surroundings(server.scene, drawing)
+        _search(server.scene, drawing)
         handles = _robot(server.scene, drawing)
         if drawing.motion.moves:
             placed = [part.placed(drawing.frames[-1]).mesh for part in drawing.parts]
@@ -108,7 +111,9 @@ def _surroundings(scene: Any, drawing: Drawing) -> None:
     for k, shape in enumerate(drawing.shapes):
         solid = drawn(shape, space, tile=np.inf)
         side = "double" if shape.kind == "halfspace" else "front"
-        _add(scene, f"/obstacles/{k}", solid, OBSTACLE, opacity=0.5, side=side)
+        near = drawing.closest is not None and drawing.closest.obstacle == k
+        colour = NEAREST if near else OBSTACLE
+        _add(scene, f"/obstacles/{k}", solid, colour, opacity=0.5, side=side)
     for k, target in enumerate(drawing.targets):
         scene.add_icosphere(
             f"/target/{k}",
@@ -122,6 +127,29 @@ def _surroundings(scene: Any, drawing: Drawing) -> None:
         colours = np.repeat(shades[:, None], 2, axis=1)
         thick = 0.008 * space.size
         scene.add_line_segments("/tip path", pieces, colours, thickness=thick)
+
+
+def _search(scene: Any, drawing: Drawing) -> None:
+    """Tool traces of both trees, and the closest approach to an obstacle."""
+    size = drawing.space.size
+    for side, pieces in drawing.traces.items():
+        if len(pieces):
+            colours = np.broadcast_to(
+                np.array(rgb(TREES[side]), np.uint8), pieces.shape
+            )
+            name = f"/trees/{side}"
+            scene.add_line_segments(name, pieces, colours, thickness=0.003 * size)
+    if drawing.closest is not None:
+        ends = drawing.closest.ends
+        colours = np.broadcast_to(np.array(rgb(NEAREST), np.uint8), (1, 2, 3))
+        scene.add_line_segments(
+            "/closest/line", ends[None], colours, thickness=0.006 * size
+        )
+        for k, end in enumerate(ends):
+            place = tuple(map(float, end))
+            scene.add_icosphere(
+                f"/closest/{k}", radius=0.008 * size, color=rgb(NEAREST), position=place
+            )
 
 
 def _robot(scene: Any, drawing: Drawing) -> dict[int, Any]:

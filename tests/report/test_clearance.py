@@ -13,7 +13,15 @@ def test_the_nearest_pair_counts(pa10, window):
     to_ball = np.linalg.norm(centres - [0.9, 0.0, 0.4], axis=2) - 0.1 - radii
     to_floor = centres[..., 2] + 0.5 - radii
     wanted = np.minimum(to_ball, to_floor).min(axis=1)
-    np.testing.assert_allclose(sampled_clearance(pa10, [ball, floor], q), wanted)
+    found = sampled_clearance(pa10, [ball, floor], q)
+    np.testing.assert_allclose(found.distance, wanted)
+    near = found.closest
+    assert near.distance == np.min(wanted)
+    assert near.sample == np.argmin(wanted)
+    assert near.obstacle == int(to_floor.min() < to_ball.min())
+    apart = np.linalg.norm(near.ends[0] - near.ends[1])
+    np.testing.assert_allclose(apart, abs(near.distance), atol=1e-12)
+    assert near.link in {sphere["link"] for sphere in pa10["spheres"]}
 
 
 def test_without_obstacles_or_moving_spheres_there_is_no_curve(pa10):
