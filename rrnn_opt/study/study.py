@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import hashlib
+import json
+import time
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field
-from multiprocessing import get_context
 from typing import Any, Protocol
 
 import numpy as np
 
 from rrnn_opt.errors import RrnnError
+
+TIMINGS = ("_s", "_ms", "_us", "_ns")
+"""Ends of the names of columns that hold times, which no two runs share."""
 
 
 @dataclass(frozen=True)
@@ -36,11 +39,15 @@ class Row:
         key: the case's.
         metrics: column -> value; empty when the case failed.
         error: kind and message of the package's own error, or "".
+        time_s: wall time of the measurement, s; no part of equality.
+        lost: its worker died each time; such a row is never kept.
     """
 
     key: str
     metrics: Mapping[str, Any]
     error: str = ""
+    time_s: float = field(default=0.0, compare=False)
+    lost: bool = False
 
 
 class Study(Protocol):
@@ -56,7 +63,18 @@ class Study(Protocol):
         ...
 
     def measure(self, case: Case, rng: np.random.Generator) -> Mapping[str, Any]:
-        """The metric columns of one case; randomness from ``rng`` only."""
+        """The metric columns of one case; randomness from ``rng`` only.
+
+        Columns that hold times end in "_s", "_ms", "_us" or "_ns".
+        """
+        ...
+
+
+class Workers(Protocol):
+    """Where cases are measured: here, in processes, on a cluster."""
+
+    def rows(self, study: Study, cases: Iterator[Case], seed: int) -> Iterator[Row]:
+        """One row a case, as they are finished; cases are taken as needed."""
         ...
 
 
@@ -72,11 +90,57 @@ def generator(case: Case, *, seed: int = 0) -> np.random.Generator:
     return np.random.default_rng(np.random.SeedSequence(entropy))
 
 
-def rows(study: Study, *, jobs: int = 1, seed: int = 0) -> Iterator[Row]:
+def measured(study: Study, case: Case, seed: int) -> Row:
+    """Measure one case; an error of the package becomes a row, a bug does not."""
+    began = time.perf_counter()
+    try:
+        metrics, error = study.measure(case, generator(case, seed=seed)), ""
+    except RrnnError as failure:
+        metrics, error = {}, f"{type(failure).__name__}: {failure}"
+    return Row(case.key, plain(metrics), error, time.perf_counter() - began)
+
+
+def plain(metrics: Mapping[str, Any]) -> dict[str, Any]:
+    """Metrics as they come back from a file: numbers, texts, lists and tables.
+
+    Raises:
+        TypeError: a value is none of these and no NumPy number or array.
+    """
+    data: dict[str, Any] = json.loads(json.dumps(dict(metrics), default=_listed))
+    return data
+
+
+def _listed(value: Any) -> Any:
+    if isinstance(value, np.generic | np.ndarray):
+        return value.tolist()
+    raise TypeError(f"a metric of type {type(value).__name__} cannot be kept in a file")
+
+
+def once(study: Study) -> Iterator[Case]:
+    """The cases of a study, each key once; in memory only a digest of each key.
+
+    Raises:
+        ValueError: two cases have the same key.
+    """
+    seen: set[bytes] = set()
+    for case in study:
+        digest = hashlib.blake2b(case.key.encode(), digest_size=12).digest()
+        if digest in seen:
+            raise ValueError(
+                f"study '{study.name}': two cases have the same key '{case.key}'"
+            )
+        seen.add(digest)
+        yield case
+
+
+def rows(
+    study: Study, *, workers: Workers | None = None, jobs: int = 1, seed: int = 0
+) -> Iterator[Row]:
     """Rows as they are finished; leaving early keeps what was yielded.
 
     Args:
         study: what to run.
+        workers: where; ``jobs`` processes by default.
         jobs: worker processes; 1 runs here.
         seed: of the whole study.
 
@@ -86,19 +150,17 @@ def rows(study: Study, *, jobs: int = 1, seed: int = 0) -> Iterator[Row]:
     Raises:
         ValueError: two cases have the same key.
     """
-    cases = list(study)
-    if len({case.key for case in cases}) != len(cases):
-        raise ValueError(f"study '{study.name}': two cases have the same key")
-    if jobs == 1:
-        yield from (_row(study, case, seed) for case in cases)
-        return
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        futures = [pool.submit(_row, study, case, seed) for case in cases]
-        try:
-            for future in as_completed(futures):
-                yield future.result()
-        finally:
-            pool.shutdown(cancel_futures=True)
+    for _ in once(study):
+        pass
+    where = local(jobs) if workers is None else workers
+    yield from where.rows(study, iter(study), seed)
+
+
+def local(jobs: int) -> Workers:
+    """Workers on this machine: this process for one job, else processes."""
+    from rrnn_opt.study.processes import Here, Processes
+
+    return Here() if jobs == 1 else Processes(jobs)
 
 
 def run(
@@ -126,11 +188,3 @@ def run(
         if progress is not None:
             progress(len(finished), len(order))
     return [finished[key] for key in order]
-
-
-def _row(study: Study, case: Case, seed: int) -> Row:
-    """Measure one case; an error of the package becomes a row, a bug does not."""
-    try:
-        return Row(case.key, dict(study.measure(case, generator(case, seed=seed))))
-    except RrnnError as error:
-        return Row(case.key, {}, f"{type(error).__name__}: {error}")

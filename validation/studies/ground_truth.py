@@ -32,7 +32,7 @@ from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.solving import Qpsolvers
-from rrnn_opt.study import Case
+from rrnn_opt.study import Case, Results, Row, Study, processor
 from rrnn_opt.validation.studies.block import Block
 from rrnn_opt.validation.studies.catalogue import (
     network_rules,
@@ -41,7 +41,6 @@ from rrnn_opt.validation.studies.catalogue import (
 )
 from rrnn_opt.validation.studies.documents import write
 from rrnn_opt.validation.studies.infeasible import Infeasible
-from rrnn_opt.validation.studies.ledger import Ledger
 from rrnn_opt.validation.studies.points import Point, Points
 
 ROBOTS = ("pa10", "panda", "raven2", "planar3")
@@ -154,26 +153,40 @@ def main(arguments: Sequence[str] | None = None) -> int:
         0; 1 when a case ended in an error; 2 when a name is unknown.
     """
     given = _parser().parse_args(arguments)
+    given.words = sys.argv[1:] if arguments is None else list(arguments)
     robots, names = tuple(given.robots), (tuple(given.schemes), tuple(given.networks))
     try:
         study = GroundTruth(robots, given.points, given.block, *names)
     except RrnnError as error:
         print(error, file=sys.stderr)
         return 2
-    ledger = Ledger(given.out / "rows.jsonl", seed=given.seed)
-    page, written = given.out / "ground_truth.md", time.monotonic()
-    parts = (Infeasible(robots, given.infeasible, names[1]), study)
-    for part in parts:
-        ledger.choose(part)
-    for part in () if given.finished else parts:
-        for row in ledger.run(part, jobs=given.jobs):
-            print(f"{row.key} {row.error}".rstrip(), file=sys.stderr, flush=True)
-            if time.monotonic() - written > REFRESH:
-                write(given.out, ledger.metrics, title=_title(arguments, ledger))
-                written = time.monotonic()
-    write(given.out, ledger.metrics, title=_title(arguments, ledger))
-    print(page)
-    return 1 if ledger.errors else 0
+    parts: tuple[Study, ...] = (
+        Infeasible(robots, given.infeasible, names[1]),
+        study,
+    )
+    with Results(given.out / "rows", seed=given.seed) as results:
+        for part in () if given.finished else parts:
+            _run(results, part, parts, given)
+        rows = [row for part in parts for row in results.rows(part)]
+    print(_write(rows, given))
+    return 1 if any(row.error for row in rows) else 0
+
+
+def _run(
+    results: Results, part: Study, parts: Sequence[Study], given: argparse.Namespace
+) -> None:
+    """Run what is left of a part, refreshing the tables from time to time."""
+    written = time.monotonic()
+    for row in results.run(part, jobs=given.jobs):
+        print(f"{row.key} {row.error}".rstrip(), file=sys.stderr, flush=True)
+        if time.monotonic() - written > REFRESH:
+            _write([r for each in parts for r in results.rows(each)], given)
+            written = time.monotonic()
+
+
+def _write(rows: Sequence[Row], given: argparse.Namespace) -> Path:
+    good = [row.metrics for row in rows if not row.error]
+    return write(given.out, good, title=_title(given.words, rows))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -195,25 +208,17 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _title(arguments: Sequence[str] | None, ledger: Ledger) -> list[str]:
+def _title(words: Sequence[str], rows: Sequence[Row]) -> list[str]:
     """Command, machine, versions and date."""
-    words = sys.argv[1:] if arguments is None else list(arguments)
+    spent = sum(row.time_s for row in rows)
     known = ["numpy", "casadi", "qpsolvers", *SOLVERS[:2], "proxsuite", "piqp"]
     versions = ", ".join(f"{name} {metadata.version(name)}" for name in known)
     return [
         f"`{_parser().prog} {' '.join(words)}`",
-        f"{datetime.now(UTC):%Y-%m-%d}, {ledger.time_s:.0f} s in all",
-        f"{_processor()}, {os.cpu_count()} cores, Python {platform.python_version()}",
+        f"{datetime.now(UTC):%Y-%m-%d}, {spent:.0f} s in all",
+        f"{processor()}, {os.cpu_count()} cores, Python {platform.python_version()}",
         versions,
     ]
-
-
-def _processor() -> str:
-    """The processor's name where the system tells it."""
-    source = Path("/proc/cpuinfo")
-    lines = source.read_text("utf-8").splitlines() if source.exists() else []
-    names = [line.split(":", 1)[1].strip() for line in lines if "model name" in line]
-    return names[0] if names else platform.machine()
 
 
 if __name__ == "__main__":

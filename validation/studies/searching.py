@@ -72,14 +72,15 @@ class Searches:
     def __iter__(self) -> Iterator[Case]:
         """Scenario by scenario, variant by variant."""
         for scene in self.scenarios:
-            for variant in self.variants:
+            for variant, settings in self.variants.items():
+                how = {"settings": repr(settings), "budget": self.budget}
                 for i in range(self.trials):
                     where = {"scenario": scene, "variant": variant, "trial": i}
-                    yield Case(f"{scene}/{variant}/{i}", where)
+                    yield Case(f"{scene}/{variant}/{i}", {**where, **how})
 
     def measure(self, case: Case, rng: np.random.Generator) -> Mapping[str, Any]:
         """One search; the seed is the trial's."""
-        where = case.parameters
+        where = {k: case.parameters[k] for k in ("scenario", "variant", "trial")}
         problem = Problem.from_dict(start_problem(where["scenario"], where["trial"]))
         settings = self.variants[where["variant"]]
         return {**where, **searched(problem, settings, where["trial"], self.budget)}
@@ -141,7 +142,7 @@ def run_study(
     parser.add_argument("--out", type=Path, default=Path("runs"))
     args = parser.parse_args(argv)
     study = Searches(name, variants, args.trials, budget=args.budget)
-    rows = collect(study, args.out / f"{name}.jsonl", jobs=args.jobs)
+    rows = collect(study, args.out / name, jobs=args.jobs)
     command = (
         f"python -m rrnn_opt.validation.studies.{name} --trials {args.trials}"
         f" --budget {args.budget} --jobs {args.jobs}"

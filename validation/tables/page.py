@@ -7,7 +7,8 @@ import os
 import platform
 from collections.abc import Sequence
 from importlib import metadata
-from pathlib import Path
+
+from rrnn_opt.study import processor
 
 PACKAGES = ("rrnn_opt", "casadi", "numpy")
 
@@ -31,14 +32,6 @@ def head(title: str, command: str) -> str:
         f"Date: {today}",
     ]
     return "\n".join(lines)
-
-
-def processor() -> str:
-    """The processor's name where the system tells it."""
-    source = Path("/proc/cpuinfo")
-    lines = source.read_text("utf-8").splitlines() if source.exists() else []
-    names = [line.split(":", 1)[1].strip() for line in lines if "model name" in line]
-    return names[0] if names else platform.machine()
 
 
 def spelled(program: str, words: Sequence[str]) -> str:

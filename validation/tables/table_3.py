@@ -156,8 +156,8 @@ def planning_rows(args: argparse.Namespace, table: int) -> tuple[list[Any], str]
         f"{printed} --jobs {args.jobs}"
     )
     study = PlanningTrials(trials=args.trials, printed=args.printed)
-    file = args.out / "planning_trials.jsonl"
-    return collect(study, file, jobs=args.jobs), command
+    folder = args.out / "planning_trials"
+    return collect(study, folder, jobs=args.jobs), command
 
 
 def main(argv: Sequence[str] | None = None) -> Path:

@@ -55,13 +55,14 @@ class PlanningTrials:
         for scene in self.scenarios:
             for planner in self.planners:
                 few = self.printed is not None and planner.startswith("paper")
+                how = {"settings": repr(self.settings[planner])}
                 for i in range(self.printed or 0 if few else self.trials):
                     where = {"scenario": scene, "planner": planner, "trial": i}
-                    yield Case(f"{scene}/{planner}/{i}", where)
+                    yield Case(f"{scene}/{planner}/{i}", {**where, **how})
 
     def measure(self, case: Case, rng: np.random.Generator) -> Mapping[str, Any]:
         """Status, explorations and time of one plan; the seed is the trial's."""
-        where = case.parameters
+        where = {k: case.parameters[k] for k in ("scenario", "planner", "trial")}
         problem = Problem.from_dict(start_problem(where["scenario"], where["trial"]))
         result = plan(
             problem,
