@@ -30,7 +30,7 @@ from dataclasses import InitVar, dataclass
 from importlib import metadata
 from typing import Any, NoReturn, final
 
-from rrnn_opt.check import claim_identity, claim_replay, claim_terms
+from rrnn_opt.check import claim_identity, claim_replay, claim_smt, claim_terms
 from rrnn_opt.check.claim_answer import (
     HOLDS_UNDER,
     PROVED,
@@ -190,5 +190,6 @@ METHODS: dict[str, Judge] = {
     "identity": claim_identity.judge,
     "terms": claim_terms.judge,
     "replay": claim_replay.judge,
+    "smt": claim_smt.judge,
 }
 """The methods there are; each is the ``judge`` of its own module."""

@@ -46,7 +46,7 @@ def candidates(
     """
     rng = np.random.default_rng(seed)
     score = _Score(claim)
-    threshold = -_NEAR if claim.goal.strict else _NOISE
+    threshold = _threshold(claim)
     lower, upper = _box(claim)
     points = [_draw(rng, lower, upper) for _ in range(samples)]
     points.sort(key=score, reverse=True)
@@ -87,6 +87,16 @@ def keepers(claim: Claim, *, seed: int = 0, samples: int = 256) -> Iterator[Poin
                 break
 
 
+def worth_replaying(claim: Claim, point: Point) -> bool:
+    """Whether a point breaks the goal by more than rounding of the constants."""
+    column = [float(x) for symbol in claim.variables for x in point[symbol.name]]
+    return _Score(claim).excess(np.array(column)) > _threshold(claim)
+
+
+def _threshold(claim: Claim) -> float:
+    return -_NEAR if claim.goal.strict else _NOISE
+
+
 class _Score:
     """How far a point breaks the goal; -inf where it is of no use."""
 
@@ -109,6 +119,10 @@ class _Score:
         """Whether the point keeps every hypothesis, and the goal is defined."""
         breaks = self._breaches(point)
         return bool(np.all(np.isfinite(breaks))) and max(breaks[1:], default=0) <= 0
+
+    def excess(self, point: Array) -> float:
+        """How far the goal is broken, whatever becomes of the hypotheses."""
+        return self._breaches(point)[0]
 
     def __call__(self, point: Array) -> float:
         """Positive when the goal is broken and every hypothesis is kept."""
