@@ -9,20 +9,12 @@ from numpy.typing import ArrayLike
 
 from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.formulation import Formulation
-from rrnn_opt.networks import whitening
 from rrnn_opt.networks.coefficients import coefficients, inverse_hessian
-from rrnn_opt.networks.dual_parts import DualParts, dual_inverse, dual_size
-from rrnn_opt.networks.network import (
-    ARITHMETIC,
-    CLIPPING,
-    Needs,
-    Network,
-    require_positive,
-)
+from rrnn_opt.networks.dual_parts import DualParts, DualProjection
 
 
 @dataclass(frozen=True)
-class DualNetwork(Network):
+class DualNetwork(DualProjection[NeuralDynamics]):
     """The network whose neurons are the dual variables alone.
 
         epsilon u' = P_[low, high](C M (C'u - q) - u) - C M (C'u - q),
@@ -42,8 +34,7 @@ class DualNetwork(Network):
 
     Attributes:
         epsilon: time constant, s.
-        whiten: whether the equality rows are whitened; see ``whitening``.
-        delta: of the whitening.
+        whiten, delta: see ``ProjectionNetwork``.
 
     Raises:
         RrnnError: epsilon or delta is not positive and finite.
@@ -56,37 +47,6 @@ class DualNetwork(Network):
     """
 
     epsilon: float = 0.01
-    whiten: bool = False
-    delta: float = 1e-6
-
-    def __post_init__(self) -> None:
-        require_positive("DualNetwork", epsilon=self.epsilon, delta=self.delta)
-
-    def __call__(self, form: Formulation) -> NeuralDynamics:
-        """The network of ``form``; state (lambda, mu, z_box), output x.
-
-        Raises:
-            RrnnError: the Hessian is singular.
-        """
-        if self.whiten:
-            return whitening.whitened(self._made, form, self.delta)
-        return self._made(form)
-
-    def needs(self, form: Formulation) -> Needs:
-        """The constant inverse of P unless P = I; and that of whitening."""
-        size = dual_size(form)
-        return Needs(
-            inverse=dual_inverse(form, whiten=self.whiten),
-            duals=size,
-            state=size,
-            definite=True,
-        )
-
-    @property
-    def operations(self) -> frozenset[str]:
-        """Products, sums and projections; a factorisation when whitened."""
-        extra = whitening.OPERATIONS if self.whiten else frozenset()
-        return ARITHMETIC | CLIPPING | extra
 
     def euler_bound(self, form: Formulation, **parameters: ArrayLike) -> float:
         """``2 epsilon / max(1, |C M C'|)``: no mode grows, whatever is active.
@@ -99,9 +59,7 @@ class DualNetwork(Network):
             **parameters: one array a parameter of the formulation.
         """
         M = inverse_hessian(form, "DualNetwork")
-        if self.whiten:
-            form = whitening.Whitened.of(form, self.delta).form
-        _, A, G = coefficients(form, parameters)
+        _, A, G = coefficients(self.conditioned(form), parameters)
         C = np.vstack([A, G, np.eye(len(M)) if form.qp.bounded else A[:0]])
         size = np.linalg.norm(C @ M @ C.T, 2) if len(C) else 0.0
         return float(2.0 * self.epsilon / max(1.0, size))

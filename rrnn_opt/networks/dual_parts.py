@@ -9,8 +9,10 @@ import casadi as ca
 
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks.coefficients import inverse_hessian, is_identity
-from rrnn_opt.networks.network import CHOLESKY, CONSTANT, NONE
+from rrnn_opt.networks.network import CHOLESKY, CONSTANT, NONE, Needs, rows
 from rrnn_opt.networks.parts import stacked
+from rrnn_opt.networks.projection import ProjectionNetwork
+from rrnn_opt.networks.whitening import D
 from rrnn_opt.symbolic.sets import Box
 from rrnn_opt.symbolic.symbol import Symbol
 
@@ -92,15 +94,18 @@ def _residual(form: Formulation, symbols: list[Symbol], x: ca.SX) -> ca.SX:
     return ca.vertcat(*parts)
 
 
-def dual_size(form: Formulation) -> int:
-    """Neurons of a dual network: one a row, and one a bounded coordinate."""
-    count = int(form.equalities.size1() + form.inequalities.size1())
-    return count + (form.decision.size if form.qp.bounded or not count else 0)
+@dataclass(frozen=True, kw_only=True)
+class DualProjection(ProjectionNetwork[D]):
+    """A projection network whose neurons are the multipliers alone."""
 
+    definite = True
 
-def dual_inverse(form: Formulation, *, whiten: bool) -> str:
-    """What a dual network needs: P^-1 unless P is I, and the factor of whitening."""
-    needed = [] if is_identity(form.qp.hessian) else [CONSTANT]
-    if whiten and form.equalities.size1():
-        needed.append(CHOLESKY)
-    return " and ".join(needed) or NONE
+    def needs(self, form: Formulation) -> Needs:
+        """P^-1, constant, unless P is I; the factor of whitening; a neuron a row."""
+        inverses = [] if is_identity(form.qp.hessian) else [CONSTANT]
+        if self.whiten and form.equalities.size1():
+            inverses.append(CHOLESKY)
+        size = rows(form)
+        size += form.decision.size if form.qp.bounded or not size else 0
+        needed = " and ".join(inverses) or NONE
+        return Needs(needed, duals=size, state=size, definite=self.definite)

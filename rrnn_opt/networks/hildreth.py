@@ -2,23 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import casadi as ca
-from numpy.typing import ArrayLike
 
 from rrnn_opt.dynamics import DiscreteDynamics
 from rrnn_opt.formulation import Formulation
-from rrnn_opt.networks import whitening
-from rrnn_opt.networks.dual_parts import DualParts, dual_inverse, dual_size
-from rrnn_opt.networks.network import (
-    ARITHMETIC,
-    CLIPPING,
-    Needs,
-    Network,
-    require_positive,
-)
+from rrnn_opt.networks.dual_parts import DualParts, DualProjection
+from rrnn_opt.networks.projection import ProjectionMap
 from rrnn_opt.symbolic.sets import Box
 
 SILENT = 1e-12
@@ -26,7 +17,7 @@ SILENT = 1e-12
 
 
 @dataclass(frozen=True)
-class Hildreth(Network):
+class Hildreth(DualProjection[DiscreteDynamics], ProjectionMap):
     """One sweep over the neurons of ``DualNetwork``, each solved in its turn.
 
     Row i in order, equality rows, inequality rows, then the bounds:
@@ -42,8 +33,7 @@ class Hildreth(Network):
     operation but for x, which is made from the multipliers at its start.
 
     Attributes:
-        whiten: whether the equality rows are whitened; see ``whitening``.
-        delta: of the whitening.
+        whiten, delta: see ``ProjectionNetwork``.
 
     Raises:
         RrnnError: delta is not positive and finite.
@@ -53,42 +43,7 @@ class Hildreth(Network):
         Logistics Quarterly 4, 1957.  Equality rows and bounds are ours.
     """
 
-    whiten: bool = False
-    delta: float = 1e-6
-
-    def __post_init__(self) -> None:
-        require_positive("Hildreth", delta=self.delta)
-
-    def __call__(self, form: Formulation) -> DiscreteDynamics:
-        """The sweep for ``form``; state (lambda, mu, z_box), output x.
-
-        Raises:
-            RrnnError: the Hessian is singular.
-        """
-        if self.whiten:
-            return whitening.whitened(self._made, form, self.delta)
-        return self._made(form)
-
-    def needs(self, form: Formulation) -> Needs:
-        """The constant inverse of P unless P = I (rows divide by their norms)."""
-        size = dual_size(form)
-        return Needs(
-            inverse=dual_inverse(form, whiten=self.whiten),
-            duals=size,
-            state=size,
-            definite=True,
-        )
-
-    @property
-    def operations(self) -> frozenset[str]:
-        """Products, sums, projections, and a guarded division a row."""
-        extra = whitening.OPERATIONS if self.whiten else frozenset()
-        guarded = {"sq", "div", "lt", "not", "if_else_zero"}
-        return ARITHMETIC | CLIPPING | guarded | extra
-
-    def euler_bound(self, form: Formulation, **parameters: ArrayLike) -> float:
-        """Infinite: a map has no step size."""
-        return math.inf
+    extra = frozenset({"sq", "div", "lt", "not", "if_else_zero"})
 
     def _made(self, form: Formulation) -> DiscreteDynamics:
         parts = DualParts.of(form, "Hildreth")

@@ -2,31 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import casadi as ca
-from numpy.typing import ArrayLike
 
 from rrnn_opt.dynamics import DiscreteDynamics
 from rrnn_opt.formulation import Formulation
-from rrnn_opt.networks import whitening
-from rrnn_opt.networks.network import (
-    ARITHMETIC,
-    CLIPPING,
-    Needs,
-    Network,
-    require_positive,
-    rows,
-)
 from rrnn_opt.networks.parts import lagrangian_parts, transposed
+from rrnn_opt.networks.projection import ProjectionMap
 
 TINY = 1e-30
 """Keeps 0/0 out of the step length where the error is zero."""
 
 
 @dataclass(frozen=True)
-class Lvi94(Network):
+class Lvi94(ProjectionMap):
     """``y+ = y - rho (I + H') e(y)``, y = (u, lambda, mu).
 
     The error and the step length are
@@ -38,8 +28,7 @@ class Lvi94(Network):
     It settles any convex QP that has a solution.
 
     Attributes:
-        whiten: whether the equality rows are whitened; see ``whitening``.
-        delta: of the whitening.
+        whiten, delta: see ``ProjectionNetwork``.
 
     Raises:
         RrnnError: delta is not positive and finite.
@@ -49,36 +38,7 @@ class Lvi94(Network):
         Mathematik 68, 1994; called 94LVI by the users of it in robotics.
     """
 
-    whiten: bool = False
-    delta: float = 1e-6
-
-    def __post_init__(self) -> None:
-        require_positive("Lvi94", delta=self.delta)
-
-    def __call__(self, form: Formulation) -> DiscreteDynamics:
-        """The iteration for ``form``; state (u, lambda, mu), output u."""
-        if self.whiten:
-            return whitening.whitened(self._made, form, self.delta)
-        return self._made(form)
-
-    def needs(self, form: Formulation) -> Needs:
-        """No inverse unless whitened (rho divides two numbers)."""
-        return Needs(
-            inverse=whitening.inverse_of(form, whiten=self.whiten),
-            duals=rows(form),
-            state=form.decision.size + rows(form),
-            definite=False,
-        )
-
-    @property
-    def operations(self) -> frozenset[str]:
-        """Products, sums, projections, and the division in rho."""
-        extra = whitening.OPERATIONS if self.whiten else frozenset()
-        return ARITHMETIC | CLIPPING | {"sq", "div"} | extra
-
-    def euler_bound(self, form: Formulation, **parameters: ArrayLike) -> float:
-        """Infinite: a map has no step size."""
-        return math.inf
+    extra = frozenset({"sq", "div"})
 
     def _made(self, form: Formulation) -> DiscreteDynamics:
         parts = lagrangian_parts(form)

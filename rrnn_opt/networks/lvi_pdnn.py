@@ -9,21 +9,13 @@ from numpy.typing import ArrayLike
 
 from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.formulation import Formulation
-from rrnn_opt.networks import whitening
 from rrnn_opt.networks.coefficients import monotone_matrix
-from rrnn_opt.networks.network import (
-    ARITHMETIC,
-    CLIPPING,
-    Needs,
-    Network,
-    require_positive,
-    rows,
-)
 from rrnn_opt.networks.parts import lagrangian_parts, transposed
+from rrnn_opt.networks.projection import ProjectionNetwork
 
 
 @dataclass(frozen=True)
-class LviPdnn(Network):
+class LviPdnn(ProjectionNetwork[NeuralDynamics]):
     """``y' = gamma (I + H') (P_Z(y - (H y + p)) - y)``, y = (u, lambda, mu).
 
     H is the matrix of the monotone map F(y) = H y + p of the KKT conditions.
@@ -34,8 +26,7 @@ class LviPdnn(Network):
 
     Attributes:
         gamma: rate, 1/s.
-        whiten: whether the equality rows are whitened; see ``whitening``.
-        delta: of the whitening.
+        whiten, delta: see ``ProjectionNetwork``.
 
     Raises:
         RrnnError: gamma or delta is not positive and finite.
@@ -46,32 +37,6 @@ class LviPdnn(Network):
     """
 
     gamma: float = 100.0
-    whiten: bool = False
-    delta: float = 1e-6
-
-    def __post_init__(self) -> None:
-        require_positive("LviPdnn", gamma=self.gamma, delta=self.delta)
-
-    def __call__(self, form: Formulation) -> NeuralDynamics:
-        """The network of ``form``; state (u, lambda, mu), output u."""
-        if self.whiten:
-            return whitening.whitened(self._made, form, self.delta)
-        return self._made(form)
-
-    def needs(self, form: Formulation) -> Needs:
-        """No inverse unless whitened, and no definite Hessian."""
-        return Needs(
-            inverse=whitening.inverse_of(form, whiten=self.whiten),
-            duals=rows(form),
-            state=form.decision.size + rows(form),
-            definite=False,
-        )
-
-    @property
-    def operations(self) -> frozenset[str]:
-        """Products, sums and projections; a factorisation when whitened."""
-        extra = whitening.OPERATIONS if self.whiten else frozenset()
-        return ARITHMETIC | CLIPPING | extra
 
     def euler_bound(self, form: Formulation, **parameters: ArrayLike) -> float:
         """``2 / (gamma |I + H|^2)``: below it no step goes away from a solution.
@@ -84,9 +49,7 @@ class LviPdnn(Network):
             form: what the network is made from.
             **parameters: one array a parameter of the formulation.
         """
-        if self.whiten:
-            form = whitening.Whitened.of(form, self.delta).form
-        H = monotone_matrix(form, parameters)
+        H = monotone_matrix(self.conditioned(form), parameters)
         size = np.linalg.norm(np.eye(len(H)) + H, 2)
         return float(2.0 / (self.gamma * size**2))
 

@@ -9,21 +9,13 @@ from numpy.typing import ArrayLike
 
 from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.formulation import Formulation
-from rrnn_opt.networks import whitening
 from rrnn_opt.networks.coefficients import coefficients
-from rrnn_opt.networks.network import (
-    ARITHMETIC,
-    CLIPPING,
-    Needs,
-    Network,
-    require_positive,
-    rows,
-)
 from rrnn_opt.networks.parts import lagrangian_parts
+from rrnn_opt.networks.projection import ProjectionNetwork
 
 
 @dataclass(frozen=True)
-class PrimalDual(Network):
+class PrimalDual(ProjectionNetwork[NeuralDynamics]):
     """The rule that turns a formulation into the network (6).
 
         epsilon u'      = -u + P_Omega(u - dL/du)            (6a)
@@ -41,8 +33,7 @@ class PrimalDual(Network):
 
     Attributes:
         epsilon: time constant, s.
-        whiten: whether the equality rows are whitened; see ``whitening``.
-        delta: of the whitening.
+        whiten, delta: see ``ProjectionNetwork``.
 
     Raises:
         RrnnError: epsilon or delta is not positive and finite.
@@ -52,41 +43,9 @@ class PrimalDual(Network):
         inequality rows besides the box, and no whitening.
     """
 
+    definite = True
+
     epsilon: float = 0.01
-    whiten: bool = False
-    delta: float = 1e-6
-
-    def __post_init__(self) -> None:
-        require_positive("PrimalDual", epsilon=self.epsilon, delta=self.delta)
-
-    def __call__(self, form: Formulation) -> NeuralDynamics:
-        """The network of ``form``.
-
-        Args:
-            form: any formulation.
-
-        Returns:
-            Dynamics with state (u, lambda, mu), output u, and the KKT residual
-            as equilibrium residual.
-        """
-        if self.whiten:
-            return whitening.whitened(self._made, form, self.delta)
-        return self._made(form)
-
-    def needs(self, form: Formulation) -> Needs:
-        """No inverse unless whitened; converges for a positive definite Hessian."""
-        return Needs(
-            inverse=whitening.inverse_of(form, whiten=self.whiten),
-            duals=rows(form),
-            state=form.decision.size + rows(form),
-            definite=True,
-        )
-
-    @property
-    def operations(self) -> frozenset[str]:
-        """Products, sums and projections; a factorisation when whitened."""
-        extra = whitening.OPERATIONS if self.whiten else frozenset()
-        return ARITHMETIC | CLIPPING | extra
 
     def euler_bound(self, form: Formulation, **parameters: ArrayLike) -> float:
         """The step at which no mode grows, whichever bounds and rows are active.
@@ -105,9 +64,7 @@ class PrimalDual(Network):
         Returns:
             The bound, s; 0 when the Hessian is singular.
         """
-        if self.whiten:
-            form = whitening.Whitened.of(form, self.delta).form
-        P, A, G = coefficients(form, parameters)
+        P, A, G = coefficients(self.conditioned(form), parameters)
         curvature = np.linalg.eigvalsh(P)
         sigma = np.linalg.norm(np.vstack([A, G]), 2) if len(A) + len(G) else 0.0
         swing = curvature[0] / sigma**2 if sigma > 0.0 else np.inf

@@ -8,12 +8,12 @@ from numpy.typing import ArrayLike
 
 from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.formulation import Formulation
-from rrnn_opt.networks.network import Needs, Network, require_positive
 from rrnn_opt.networks.primal_dual import PrimalDual
+from rrnn_opt.networks.projection import ProjectionNetwork
 
 
 @dataclass(frozen=True)
-class SimplifiedLviPdnn(Network):
+class SimplifiedLviPdnn(ProjectionNetwork[NeuralDynamics]):
     """``y' = gamma (P_Z(y - (H y + p)) - y)``, y = (u, lambda, mu).
 
     ``LviPdnn`` without the factor ``I + H'``.  Written out it is the network
@@ -23,8 +23,7 @@ class SimplifiedLviPdnn(Network):
 
     Attributes:
         gamma: rate, 1/s.
-        whiten: whether the equality rows are whitened; see ``whitening``.
-        delta: of the whitening.
+        whiten, delta: see ``ProjectionNetwork``.
 
     Raises:
         RrnnError: gamma or delta is not positive and finite.
@@ -34,30 +33,17 @@ class SimplifiedLviPdnn(Network):
         (6) is our reading, held by a test.
     """
 
+    definite = True
+
     gamma: float = 100.0
-    whiten: bool = False
-    delta: float = 1e-6
-
-    def __post_init__(self) -> None:
-        require_positive("SimplifiedLviPdnn", gamma=self.gamma, delta=self.delta)
-
-    def __call__(self, form: Formulation) -> NeuralDynamics:
-        """The network of ``form``; state (u, lambda, mu), output u."""
-        return replace(self._rule(form), name=f"simplified_lvi_pdnn_{form.name}")
-
-    def needs(self, form: Formulation) -> Needs:
-        """What ``PrimalDual`` needs."""
-        return self._rule.needs(form)
-
-    @property
-    def operations(self) -> frozenset[str]:
-        """Those of ``PrimalDual``."""
-        return self._rule.operations
 
     def euler_bound(self, form: Formulation, **parameters: ArrayLike) -> float:
         """That of ``PrimalDual``."""
-        return self._rule.euler_bound(form, **parameters)
+        return self._rule.euler_bound(self.conditioned(form), **parameters)
+
+    def _made(self, form: Formulation) -> NeuralDynamics:
+        return replace(self._rule(form), name=f"simplified_lvi_pdnn_{form.name}")
 
     @property
     def _rule(self) -> PrimalDual:
-        return PrimalDual(1.0 / self.gamma, whiten=self.whiten, delta=self.delta)
+        return PrimalDual(1.0 / self.gamma)
