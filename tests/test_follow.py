@@ -49,7 +49,7 @@ def test_a_panda_plan_keeps_clear(path):
 @pytest.mark.slow
 def test_a_thousand_plans():
     """Each proved again from its document; every fiftieth followed by coal."""
-    starts = itertools.product(range(5), SCENARIOS, range(50))
+    starts = itertools.product(range(4), SCENARIOS, range(50))
     for count, (seed, name, start) in enumerate(starts):
         result = plan(Problem.from_dict(scenario(name).problem(start)), seed=seed)
         document = result.to_dict()

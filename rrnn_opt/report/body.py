@@ -63,6 +63,8 @@ def parts_of(robot: dict[str, Any]) -> list[Part]:
         origin = np.asarray(robot["placements"][k], dtype=float)[:3, 3]
         parts += _link(parent, np.zeros(3), origin, _radius(radii, parent))
         if robot["types"][k] == "prismatic":
+            if _carries_rod(robot, k):
+                continue
             parts += _rod(robot, k, _radius(radii, k))
         elif parent >= 0 or origin.any():
             knob = min(KNOB * _radius(radii, k), 1.6 * _radius(radii, parent))
@@ -111,6 +113,14 @@ def _link(joint: int, a: Array, b: Array, radius: float) -> list[Part]:
     on_plate = joint <= 0 and not a.any()
     solid = mesh.capsule(a, b, radius, sides=20, flat=on_plate)
     return [Part(joint, "link", np.stack([a, b]), solid)]
+
+
+def _carries_rod(robot: dict[str, Any], joint: int) -> bool:
+    """Whether a link already lies where the rod of a prismatic joint would."""
+    axis = np.asarray(robot["axes"][joint], dtype=float)
+    children = [k for k, parent in enumerate(robot["parents"]) if parent == joint]
+    offsets = [np.asarray(robot["placements"][k], dtype=float)[:3, 3] for k in children]
+    return any(offset @ axis < -SHORT for offset in offsets)
 
 
 def _rod(robot: dict[str, Any], joint: int, radius: float) -> list[Part]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.report import charts, mesh
+from rrnn_opt.report.camera import View
 from rrnn_opt.report.charts import INK
 from rrnn_opt.report.drawing import TILES, Drawing, drawing_of
 from rrnn_opt.report.files import write_bytes
@@ -95,17 +97,38 @@ def chart_list(document: dict[str, Any], drawing: Drawing) -> list[Any]:
     return found
 
 
-def draw_scene(axes: Any, document: dict[str, Any]) -> None:
+def draw_scene(
+    axes: Any,
+    document: dict[str, Any],
+    *,
+    view: View | None = None,
+    focus: tuple[Array, float] | None = None,
+) -> None:
     """Draw only the scene of a plan result, for figures of several.
 
     Args:
         axes: of matplotlib.
         document: plan result; without a trajectory its path is drawn.
+        view: direction to look from, by default one that hides little.
+        focus: point (3,) in the middle and width that is shown, m; by default
+            everything.
 
     Raises:
         DocumentError: the document is not a plan result.
     """
-    _scene(axes, drawing_of(document))
+    drawing = drawing_of(document)
+    drawing = drawing if view is None else replace(drawing, view=view)
+    _scene(axes, drawing)
+    if focus is not None:
+        space = drawing.space
+        centre, width = np.asarray(focus[0], dtype=float), focus[1]
+        x, y, _ = Painter(drawing.view, space.centre, space.size).project(centre)
+        box = axes.get_window_extent()
+        half = 0.5 * width
+        axes.set_xlim(x - half, x + half)
+        axes.set_ylim(
+            y - half * box.height / box.width, y + half * box.height / box.width
+        )
 
 
 def _scene(axes: Any, drawing: Drawing) -> None:

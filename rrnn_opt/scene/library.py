@@ -10,17 +10,18 @@ from typing import Any
 from rrnn_opt.errors import ProblemError
 from rrnn_opt.scene import fields
 
-SCENARIOS = ("plane", "window", "window_040", "window_050")
+SCENARIOS = ("plane", "window", "window_040", "window_050", "raven_opening")
 """Shipped scenarios; a window's number is its width in centimetres, and
-``window`` itself has 30."""
+``window`` itself has 30.  ``raven_opening`` is a box with an opening of 4 cm."""
 
 
 @dataclass(frozen=True)
 class Scenario:
     """A robot, a target and obstacles, with the starts to try.
 
-    Source: after the two scenarios of section IV-B (tables III and IV) of Li,
-    Li and Hannaford 2019, doi 10.1109/TII.2018.2869588.  The paper prints no
+    Source: after the two scenarios of section IV-B (tables III and IV) and the
+    Raven II experiment of Li, Li and Hannaford 2019, doi
+    10.1109/TII.2018.2869588.  The paper prints no
     dimensions; ``choices`` says which numbers are this project's own.
 
     Attributes:
@@ -31,7 +32,7 @@ class Scenario:
         target: position that the robot's tip shall reach, m.
         tolerance: m.
         obstacles: in the problem file's form.
-        starts: joint values to start from, rad.
+        starts: joint values to start from, rad or m.
         window: opening as {"x", "y": [low, high], "z": [low, high]}, m, or None.
     """
 
