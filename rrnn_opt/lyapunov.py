@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from rrnn_opt.dynamics import NeuralDynamics
+from rrnn_opt.dynamics import DiscreteDynamics, Dynamics, NeuralDynamics
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.symbolic.symbol import (
     Symbol,
@@ -69,11 +69,7 @@ class LyapunovFunction:
                 parameter of V, or a rate depends on an undeclared symbol.
             ShapeError: a rate has the wrong shape.
         """
-        if not _same(self.state, dynamics.state):
-            raise RrnnError(
-                f"V is a function of '{self.state.name}' and the dynamics have the "
-                f"state '{dynamics.state.name}'; write V in dynamics.state.sx"
-            )
+        self._require_state(dynamics)
         rates = dict(parameter_rates or {})
         value = _along(self.value, self.state, dynamics.derivative)
         every = {s.name: s for s in (*self.parameters, *dynamics.parameters)}
@@ -86,6 +82,43 @@ class LyapunovFunction:
         if rates:
             raise RrnnError(f"V has no parameter {', '.join(map(repr, rates))}")
         return ca.densify(value)
+
+    def change(self, dynamics: DiscreteDynamics) -> ca.SX:
+        """``V(g(x, p), p) - V(x, p)``: what one step does to V, data standing still.
+
+        Args:
+            dynamics: g, over the same state symbol.
+
+        Returns:
+            The difference, (1, 1).
+
+        Raises:
+            RrnnError: the state is another symbol.
+        """
+        self._require_state(dynamics)
+        after = ca.substitute(self.value, self.state.sx, dynamics.next)
+        return ca.densify(after - self.value)
+
+    def _require_state(self, dynamics: Dynamics) -> None:
+        if not _same(self.state, dynamics.state):
+            raise RrnnError(
+                f"V is a function of '{self.state.name}' and the dynamics have the "
+                f"state '{dynamics.state.name}'; write V in dynamics.state.sx"
+            )
+
+
+def merit(dynamics: Dynamics) -> LyapunovFunction:
+    """``V = 1/2 |residual|^2``: zero exactly at the equilibria.
+
+    For a network in (u, lambda, mu) the residual is ``P_Z(z - F(z)) - z``.
+    That V falls along some network is a statement of its own, about that
+    network; as a measure of what is missing it serves for all.
+
+    Args:
+        dynamics: any network.
+    """
+    value = ca.sumsqr(dynamics.residual) / 2
+    return LyapunovFunction(value, dynamics.state, dynamics.parameters)
 
 
 def _along(value: ca.SX, symbol: Symbol, rate: ca.SX) -> ca.SX:

@@ -8,6 +8,7 @@ from rrnn_opt.cli import named
 from rrnn_opt.cli.folders import folder
 from rrnn_opt.cli.output import Output
 
+TARGETS = ("host", "cortex-m4f", "cortex-m7")
 HELP = "write a scheme's controller as a C package"
 
 
@@ -23,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--real", choices=("float", "double"), default="float")
     parser.add_argument("--prefix", help="of every exported name (default: the robot)")
-    parser.add_argument("--target", choices=("host",), default="host")
+    parser.add_argument("--target", choices=TARGETS, default="host")
 
 
 def run(args: argparse.Namespace, out: Output) -> int:
@@ -36,7 +37,9 @@ def run(args: argparse.Namespace, out: Output) -> int:
 
     rule = named.network(args.network) if args.network else LviPdnn(whiten=True)
     law = rule(scheme(Kinematics(robot)))
-    package = generate(law, prefix=args.prefix or robot.name, real=args.real)
+    package = generate(
+        law, prefix=args.prefix or robot.name, real=args.real, target=args.target
+    )
     written = package.write(target)
     out.document(package.manifest)
     out.say(f"wrote {written}")

@@ -13,6 +13,7 @@ from typing import Final, Literal
 from rrnn_opt.errors import RrnnError
 
 Real = Literal["double", "float"]
+Trig = Literal["own", "libm"]
 SUFFIX: Final[dict[str, str]] = {"double": "", "float": "F"}
 
 _HEAD = """\
@@ -34,9 +35,26 @@ typedef {real} real_t;
 #endif
 """
 
+_LIBRARY_SINCOS = """\
+typedef struct {{
+    real_t s;
+    real_t c;
+}} rrnn_sincos_t;
+
+RRNN_UNUSED static inline rrnn_sincos_t rrnn_sincos(real_t x)
+{{
+    const rrnn_sincos_t out = {{sin{f}(x), cos{f}(x)}};
+    return out;
+}}
+"""
+
 
 def prologue(
-    real: Real = "double", *, support: Sequence[str] = (), compact: bool = False
+    real: Real = "double",
+    *,
+    support: Sequence[str] = (),
+    compact: bool = False,
+    trig: Trig = "own",
 ) -> str:
     """Text that opens a translation unit.
 
@@ -50,6 +68,8 @@ def prologue(
             e.g. ``("hildreth.h",)``.
         compact: sine and cosine of the same bits for a microcontroller: small,
             and always the same number of instructions.
+        trig: "own" sine and cosine, defined to the bit, or "libm", those of
+            the C library.
 
     Returns:
         C99 text without dependencies other than the standard headers.
@@ -57,8 +77,11 @@ def prologue(
     literal = "literal##F" if require_real(real) == "float" else "literal"
     suffix = "f" if real == "float" else ""
     head = _HEAD.format(real=real, literal=literal, f=suffix)
-    turn = "compact" if compact else "sincos"
-    parts = [support_text(name) for name in (f"{turn}_{real}.h", *support)]
+    if require_trig(trig) == "libm":
+        parts = [_LIBRARY_SINCOS.format(f=suffix)]
+    else:
+        parts = [support_text(f"{'compact' if compact else 'sincos'}_{real}.h")]
+    parts += [support_text(name) for name in support]
     return "\n".join([head, *parts])
 
 
@@ -79,3 +102,10 @@ def require_real(real: str) -> str:
     if real not in SUFFIX:
         raise RrnnError(f"real must be 'double' or 'float', got '{real}'")
     return real
+
+
+def require_trig(trig: str) -> str:
+    """Return ``trig`` if it names a sine and cosine that the emitter knows."""
+    if trig not in ("own", "libm"):
+        raise RrnnError(f"sine and cosine must be 'own' or 'libm', got '{trig}'")
+    return trig

@@ -1,3 +1,4 @@
+import ctypes
 import subprocess
 from pathlib import Path
 
@@ -46,3 +47,16 @@ def cc(tmp_path):
         return Path(tmp_path / out)
 
     return compile_
+
+
+@pytest.fixture
+def shared(cc):
+    """A package as a shared object."""
+
+    def build(folder, *flags):
+        sources = sorted((folder / "src").glob("*.c"))
+        name = f"{folder.name}.so"
+        call = ["-shared", "-fPIC", *flags]
+        return ctypes.CDLL(str(cc(sources, name, *call, includes=[folder / "include"])))
+
+    return build

@@ -29,31 +29,34 @@ def structs(dynamics, real):
         return type("S", (ctypes.Structure,), {"_fields_": fields})
 
     n, m = dynamics.state.size, dynamics.output.numel()
-    state = [("x", number * n), ("h", number), ("tick", ctypes.c_uint32)]
+    param = [("h", number), ("tolerance", number)]
+    state = [("x", number * n), *param, ("merit", number), ("tick", ctypes.c_uint32)]
     inputs = [(p.name, number * p.size) for p in dynamics.parameters]
-    out = [("output", number * m), ("residual", number)]
-    return struct(state), struct(inputs), struct(out), struct([("h", number)])
+    out = [("output", number * m), ("residual", number), ("merit", number)]
+    out += [("change", number), ("verdict", ctypes.c_uint32)]
+    out += [("iterations", ctypes.c_uint32)]
+    return struct(state), struct(inputs), struct(out), struct(param)
+
+
+def host_test(cc, folder):
+    """The package's own test, compiled."""
+    sources = [*sorted((folder / "src").glob("*.c")), folder / "test/test_host.c"]
+    includes = [folder / "include", folder / "src", folder / "test"]
+    return cc(sources, "test_host", includes=includes)
 
 
 @pytest.mark.parametrize("real", ["double", "float"])
 @pytest.mark.parametrize("name", ["box", "rows"])
 @pytest.mark.parametrize("steps", [1, 5])
-def test_steps_are_those_of_the_dynamics(networks, cc, tmp_path, name, real, steps):
+def test_steps_are_those_of_the_dynamics(networks, shared, tmp_path, name, real, steps):
     dynamics = networks[name]
     package = generate(dynamics, prefix="arm", real=real, steps=steps)
     folder = package.write(tmp_path)
-    program = cc(
-        [folder / "src/arm.c"],
-        "arm.so",
-        "-shared",
-        "-fPIC",
-        includes=[folder / "include"],
-    )
-    lib = ctypes.CDLL(str(program))
+    lib = shared(folder)
     State, In, Out, Param = structs(dynamics, real)
     state, out, number = State(), Out(), C_TYPE[real]
     h = number(0.004).value
-    assert lib.arm_init(ctypes.byref(state), ctypes.byref(Param(h))) == 0
+    assert lib.arm_init(ctypes.byref(state), ctypes.byref(Param(h, 1e9))) == 0
     assert list(state.x) == [0.0] * dynamics.state.size
     oracle = dynamics.step(Euler(h)).functions()["step"]
     residual = dynamics.functions()["residual"]
@@ -86,22 +89,15 @@ def test_steps_are_those_of_the_dynamics(networks, cc, tmp_path, name, real, ste
 
 
 @pytest.mark.parametrize("real", ["double", "float"])
-def test_refusals_leave_everything_as_it_was(networks, cc, tmp_path, real):
+def test_refusals_leave_everything_as_it_was(networks, shared, tmp_path, real):
     dynamics = networks["box"]
     folder = generate(dynamics, real=real).write(tmp_path)
-    program = cc(
-        [folder / "src/arm.c"],
-        "arm.so",
-        "-shared",
-        "-fPIC",
-        includes=[folder / "include"],
-    )
-    lib = ctypes.CDLL(str(program))
+    lib = shared(folder)
     State, In, Out, Param = structs(dynamics, real)
     number = C_TYPE[real]
     state, out = State(), Out()
     for h, status in ((0.0, 2), (-1.0, 2), (np.nan, 1), (np.inf, 1), (0.01, 0)):
-        assert lib.arm_init(ctypes.byref(state), ctypes.byref(Param(h))) == status
+        assert lib.arm_init(ctypes.byref(state), ctypes.byref(Param(h, 1e9))) == status
 
     def step(q, rd=(1.0, 0.5, 0.0), x=None):
         given = In((number * 3)(*q), (number * 3)(*rd))
@@ -118,9 +114,10 @@ def test_refusals_leave_everything_as_it_was(networks, cc, tmp_path, real):
     assert step((0.1, np.nan, 0.3)) == 1
     assert step((0.1, 0.2, 0.3), rd=(np.inf, 0, 0)) == 1
     assert step((0.1, 0.2, 20.0)) == 3  # so far outside that (10) is empty
-    assert step((0.1, 0.2, 0.3), x=(np.nan, 0, 0)) == 1
+    assert step((0.1, 0.2, 0.3), x=(np.nan, 0, 0)) == 4
     largest = float(np.finfo(np.float32 if real == "float" else float).max)
-    assert step((0.1, 0.2, 0.3), x=(largest,) * 3, rd=(largest,) * 3) == 4
+    assert step((0.1, 0.2, 0.3), x=(largest,) * 3) == 4
+    assert step((0.1, 0.2, 0.3), rd=(largest,) * 3) == 5
 
 
 @pytest.mark.parametrize("real", ["double", "float"])
@@ -128,11 +125,9 @@ def test_refusals_leave_everything_as_it_was(networks, cc, tmp_path, real):
 def test_its_own_test_passes(networks, cc, tmp_path, real, step_size):
     package = generate(networks["rows"], real=real, steps=2, step_size=step_size)
     folder = package.write(tmp_path)
-    sources = [folder / "src/arm.c", folder / "test/test_host.c"]
-    program = cc(sources, "test_host", includes=[folder / "include"])
-    done = run(program)
+    done = run(host_test(cc, folder))
     assert done.returncode == 0
-    assert done.stdout.startswith("PASS: 8 cases")
+    assert done.stdout.startswith("PASS: 24 cases, 0 wrong, 0 self-test")
 
 
 def test_its_own_test_can_fail(networks, cc, tmp_path):
@@ -140,12 +135,10 @@ def test_its_own_test_can_fail(networks, cc, tmp_path):
     folder = generate(networks["box"], real="double").write(tmp_path)
     place = folder / "src/arm.c"
     text = place.read_text()
-    head, kernel = text.split("arm_kernel(", 1)
+    head, kernel = text.split(" advance(", 1)
     assert "* 0.8" in kernel or "0.8 *" in kernel
-    place.write_text(head + "arm_kernel(" + kernel.replace("0.8", "0.80000001", 1))
-    sources = [place, folder / "test/test_host.c"]
-    program = cc(sources, "test_host", includes=[folder / "include"])
-    done = run(program)
+    place.write_text(head + " advance(" + kernel.replace("0.8", "0.80000001", 1))
+    done = run(host_test(cc, folder))
     assert done.returncode == 1
     assert done.stdout.startswith("FAIL")
 
@@ -162,7 +155,7 @@ def test_two_packages_live_in_one_image(networks, cc, tmp_path):
     main.write_text(
         '#include "left.h"\n#include "right.h"\n#include <string.h>\n'
         "int main(void)\n{\n"
-        "    left_param_t a = {0.01F};\n    right_param_t b = {0.01};\n"
+        "    left_param_t a = {0.01F, 1.0F};\n    right_param_t b = {0.01, 1.0};\n"
         "    left_state_t s;\n    right_state_t r;\n"
         "    const int ok = (left_init(&s, &a) == LEFT_OK)\n"
         "        && (right_init(&r, &b) == RIGHT_OK);\n"
@@ -182,9 +175,10 @@ def test_only_the_prefixed_functions_are_visible(networks, cc, tmp_path):
     listed = subprocess.run(["nm", program], capture_output=True, text=True, check=True)
     rows = [line.split() for line in listed.stdout.splitlines()]
     defined = {row[-1] for row in rows if row[-2] in "TDBCRV"}
-    assert defined == {"arm_init", "arm_step", "arm_model_hash"}
+    functions = ("init", "step", "monitor", "model_hash")
+    assert defined == {f"arm_{name}" for name in functions}
     assert not {row[-1] for row in rows if row[-2] in "dDbBC"}  # no variables
-    assert {row[-1] for row in rows if row[-2] == "U"} <= {"memset", "memcpy"}
+    assert {row[-1] for row in rows if row[-2] == "U"} <= {"memset", "memcpy", "sqrtf"}
 
 
 @pytest.mark.skipif(shutil.which("g++") is None, reason="needs g++")
@@ -203,7 +197,5 @@ def test_a_network_without_parameters_or_formulation(cc, tmp_path):
     x = Symbol.scalar("tick", "1", "ends the comment */ int evil; /* and \n a line")
     dynamics = NeuralDynamics("decay", x, (), -x.sx, 2 * x.sx, x.sx)
     folder = generate(dynamics, prefix="d", real="double", steps=3).write(tmp_path)
-    sources = [folder / "src/d.c", folder / "test/test_host.c"]
-    program = cc(sources, "t", includes=[folder / "include"])
-    assert run(program).returncode == 0
+    assert run(host_test(cc, folder)).returncode == 0
     assert "int evil; / *" in (folder / "include/d.h").read_text()
