@@ -36,8 +36,8 @@ def test_the_opening_is_a_square_of_four_centimetres_and_the_box_is_closed():
         (0, "front left", "front right"),
         (1, "front below", "front above"),
     ):
-        least = local[f"front {low}"][axis] + boards[f"front {low}"].size[axis] / 2
-        most = local[f"front {high}"][axis] - boards[f"front {high}"].size[axis] / 2
+        least = local[low][axis] + boards[low].size[axis] / 2
+        most = local[high][axis] - boards[high].size[axis] / 2
         assert most - least == pytest.approx(0.04, abs=1e-8)
     front = local["front left"][2]
     assert front == pytest.approx(0.06, abs=1e-8)
