@@ -1,0 +1,1 @@
+"""Interval arithmetic on tapes, and branch and bound with it."""
