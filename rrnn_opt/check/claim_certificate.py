@@ -30,7 +30,13 @@ from dataclasses import InitVar, dataclass
 from importlib import metadata
 from typing import Any, NoReturn, final
 
-from rrnn_opt.check import claim_identity, claim_replay, claim_smt, claim_terms
+from rrnn_opt.check import (
+    claim_identity,
+    claim_interval,
+    claim_replay,
+    claim_smt,
+    claim_terms,
+)
 from rrnn_opt.check.claim_answer import (
     HOLDS_UNDER,
     PROVED,
@@ -188,6 +194,7 @@ def versions() -> dict[str, str]:
 Judge = Callable[[ClaimGraph, Any, Any], Answer]
 METHODS: dict[str, Judge] = {
     "identity": claim_identity.judge,
+    "interval": claim_interval.judge,
     "terms": claim_terms.judge,
     "replay": claim_replay.judge,
     "smt": claim_smt.judge,

@@ -18,8 +18,8 @@ FLAGS = ("-std=gnu99", "-frounding-math", "-fno-trapping-math", "-Wno-psabi")
 """For the compiler: vector types, and no arithmetic behind the rounding mode's back."""
 
 UNARY = ("neg", "sq", "twice", "inv", "sqrt", "fabs", "sign", "not")
-BINARY = ("add", "sub", "mul", "div", "fmin", "fmax", "lt", "le", "eq", "ne")
-BINARY += ("and", "or", "if_else_zero")
+ARITHMETIC = ("add", "sub", "mul", "div", "fmin", "fmax")
+BINARY = (*ARITHMETIC, "lt", "le", "eq", "ne", "and", "or", "if_else_zero")
 MADE = frozenset(("add", "sub", "mul", "div", "sq", "twice", "inv", "sqrt"))
 """Operations that can make an unbounded interval of bounded ones."""
 OPERATIONS = frozenset(

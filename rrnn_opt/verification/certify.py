@@ -14,11 +14,13 @@ from rrnn_opt.verification import falsify, normal, smt
 from rrnn_opt.verification.document import Witness, certificate_document
 from rrnn_opt.verification.engine import Engine
 from rrnn_opt.verification.inhabit import inhabitant
+from rrnn_opt.verification.interval import engine as interval
 from rrnn_opt.verification.verdict import Verdict
 
 ENGINES: tuple[Engine, ...] = (
     Engine("identity", normal.propose_identity),
     Engine("terms", normal.propose_terms),
+    Engine("interval", interval.propose),
     Engine("falsifier", falsify.propose),
     Engine("smt", smt.propose),
 )

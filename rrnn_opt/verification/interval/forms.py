@@ -22,9 +22,9 @@ from rrnn_opt.errors import UnsupportedOperationError
 from rrnn_opt.symbolic.tape import Tape
 from rrnn_opt.verification.interval.kernel import Array, Enclosure, IntervalKernel
 
+_EXACT = ("input", "output", "const", "add", "sub", "mul", "neg", "sq", "twice")
 CONTINUOUS = frozenset(
-    "input output const add sub mul div neg sq twice inv sqrt sin cos fabs fmin fmax"
-    " pow".split()
+    (*_EXACT, "div", "inv", "sqrt", "sin", "cos", "fabs", "fmin", "fmax", "pow")
 )
 """Operations that are Lipschitz wherever their enclosure is bounded."""
 _GROW = 1.0 + 1e-13  # more than a hundred roundings of sums of products >= 0

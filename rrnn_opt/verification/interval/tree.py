@@ -8,6 +8,7 @@ element; the others are leaves and say what showed them.
 from __future__ import annotations
 
 import base64
+import hashlib
 import zlib
 from collections.abc import Sequence
 from typing import Any
@@ -24,10 +25,11 @@ def packed(levels: Sequence[Codes]) -> dict[str, Any]:
     """The payload of an interval certificate.
 
     Returns:
-        ``tree``: zlib and base64 of all bytes; ``nodes`` and ``leaves``: how
-        many there are.
+        ``tree``: zlib and base64 of all bytes; ``sha256``: of the bytes;
+        ``nodes`` and ``leaves``: how many there are.
     """
     codes = np.concatenate(levels) if levels else np.zeros(0, np.uint8)
     text = base64.b64encode(zlib.compress(codes.tobytes(), 6)).decode()
     leaves = int(np.sum(codes >= MOST_AXES))
-    return {"tree": text, "nodes": len(codes), "leaves": leaves}
+    digest = hashlib.sha256(codes.tobytes()).hexdigest()
+    return {"tree": text, "sha256": digest, "nodes": len(codes), "leaves": leaves}
