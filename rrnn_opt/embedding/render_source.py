@@ -93,10 +93,14 @@ def source(
 ) -> str:
     """src/<prefix>.c."""
     kernels, run = _steps(kernel, options)
-    kernels += "\n" + c_function(kernel.monitor, "watch", real=options.real, compact=True)
+    kernels += "\n" + c_function(
+        kernel.monitor, "watch", real=options.real, compact=True
+    )
     fallback = ""
     if programme is not None:
-        kernels += "\n" + c_function(programme.tape, "programme", real=options.real, compact=True)
+        kernels += "\n" + c_function(
+            programme.tape, "programme", real=options.real, compact=True
+        )
         fallback = _fallback(kernel, options, words, programme)
     return template(
         "source.c",

@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import sys
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -72,10 +72,11 @@ def from_urdf(
     path: str | Path,
     *,
     tip: str | None = None,
+    tips: Sequence[str] = (),
     spheres: str | Path | None = None,
     locked: Mapping[str, float] | None = None,
 ) -> Robot:
-    """The joints of a URDF between its root and the link ``tip``.
+    """The joints of a URDF between its root and the link ``tip``, or ``tips``.
 
     All other joints stand at their ``locked`` value (default 0) and their links
     are fixed bodies; joints that mimic a moving one follow it.
@@ -84,6 +85,8 @@ def from_urdf(
         path: the URDF file.
         tip: end-effector link; without it the last leaf link of the file that
             a joint moves.
+        tips: links of several arms that move at once, in place of ``tip``; the
+            first is the robot's tip, of which tip goals speak.
         spheres: collision-sphere file; without it the spheres, cylinders and
             boxes of the collision geometry are covered.
         locked: values of joints that do not move, rad or m.
@@ -99,8 +102,8 @@ def from_urdf(
     model = _model(urdf)
     whole = _whole(model, urdf.path)
     held = {name: float(value) for name, value in (locked or {}).items()}
-    end = _default_tip(whole, urdf, held) if tip is None else tip
-    robot = restrict(whole, tip=end, locked=held, mimic=urdf.mimic)
+    ends = _ends(whole, urdf, held, tip, tips)
+    robot = restrict(whole, tips=ends, locked=held, mimic=urdf.mimic)
     source = f"{urdf.path}{_assumed(model, robot)}"
     named = replace(robot, name=urdf.name, source=source)
     return collision_body(named, urdf, spheres)
@@ -123,6 +126,20 @@ def from_pinocchio(model: Any, *, tip: str | None = None) -> Robot:
     if tip is not None:
         whole = replace(whole, tip=whole.frame(tip).name)
     return replace(whole, source=f"pinocchio model{_assumed(model, whole)}")
+
+
+def _ends(
+    whole: Robot,
+    urdf: Urdf,
+    held: Mapping[str, float],
+    tip: str | None,
+    tips: Sequence[str],
+) -> tuple[str, ...]:
+    if isinstance(tips, str) or (tip is not None and tips):
+        raise RobotError(urdf.path, "give either one 'tip' or a sequence of 'tips'")
+    if tips:
+        return tuple(tips)
+    return (_default_tip(whole, urdf, held) if tip is None else tip,)
 
 
 def _default_tip(whole: Robot, urdf: Urdf, held: Mapping[str, float]) -> str:

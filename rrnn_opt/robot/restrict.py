@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -44,9 +44,16 @@ def axis_motion(kind: str, axis: Array, value: float) -> Array:
 
 
 def restrict(
-    whole: Robot, *, tip: str, locked: Mapping[str, float], mimic: Mapping[str, Mimic]
+    whole: Robot,
+    *,
+    tips: Sequence[str],
+    locked: Mapping[str, float],
+    mimic: Mapping[str, Mimic],
 ) -> Robot:
-    """The robot whose coordinates are the joints between the base and ``tip``.
+    """The robot whose coordinates are the joints between the base and ``tips``.
+
+    They come in the order of the tips, each tip's from the base outwards; a
+    joint on the way to several tips comes once.
 
     Joints that mimic one of them follow it, wherever they are in the tree; all
     others stand at their locked value (0 when none is given; a mimic joint at
@@ -55,7 +62,7 @@ def restrict(
 
     Args:
         whole: a robot with one coordinate a joint, named alike.
-        tip: frame name.
+        tips: frame names, one or more; the first is the robot's tip.
         locked: values of joints that do not move, rad or m.
         mimic: couplings.
 
@@ -68,12 +75,14 @@ def restrict(
     """
     names = whole.joint_names
     _check_locked(whole, locked)
-    way = [names[k] for k in whole.tree.ancestors(whole.frame(tip).joint)]
+    ways = [whole.tree.ancestors(whole.frame(tip).joint) for tip in tips]
+    way = dict.fromkeys(names[k] for one in ways for k in one)
     moving = [name for name in way if name not in locked and name not in mimic]
     drives = {name: _drive(whole, name, moving, locked, mimic) for name in names}
     moving = [name for name in moving if drives[name].source is not None]
     if not moving:
-        raise RobotError(whole.name, f"no joint moves the frame '{tip}'")
+        frames = ", ".join(f"'{tip}'" for tip in tips)
+        raise RobotError(whole.name, f"no joint moves the frame {frames}")
     carriers, kept = _carriers(whole.tree, [drives[name] for name in names])
     return replace(
         whole,
@@ -81,7 +90,7 @@ def restrict(
         tree=_tree(whole, moving, drives, carriers, kept),
         limits=_limits(whole, [names.index(name) for name in moving]),
         frames=tuple(_frame(frame, carriers) for frame in whole.frames),
-        tip=tip,
+        tip=tips[0],
     )
 
 

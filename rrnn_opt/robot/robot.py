@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -117,14 +118,16 @@ class Robot:
         path: str | Path,
         *,
         tip: str | None = None,
+        tips: Sequence[str] = (),
         spheres: str | Path | None = None,
         locked: dict[str, float] | None = None,
     ) -> Robot:
-        """The chain of a URDF from its root to the frame ``tip``.
+        """The chain of a URDF from its root to the frame ``tip``, or to ``tips``.
 
         Args:
             path: the URDF file.
             tip: end-effector link; without it the last leaf that a joint moves.
+            tips: links of several arms that move at once, in place of ``tip``.
             spheres: collision-sphere file; without it the spheres, cylinders
                 and boxes of the collision geometry are covered by spheres.
             locked: values of joints that do not move, rad or m.
@@ -134,7 +137,7 @@ class Robot:
         """
         from rrnn_opt.robot.loading import from_urdf
 
-        return from_urdf(path, tip=tip, spheres=spheres, locked=locked)
+        return from_urdf(path, tip=tip, tips=tips, spheres=spheres, locked=locked)
 
     @staticmethod
     def from_pinocchio(model: Any, *, tip: str | None = None) -> Robot:

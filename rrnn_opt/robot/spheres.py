@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 from pathlib import Path
@@ -82,6 +82,7 @@ def fit_spheres(
     path: str | Path,
     *,
     tip: str | None = None,
+    tips: Sequence[str] = (),
     inflation: float = 0.02,
     most: int = 16,
     folders: tuple[Path, ...] = (),
@@ -92,6 +93,7 @@ def fit_spheres(
         path: the URDF.
         tip: end-effector link, for the joints that move when pairs are looked
             at; by default that of ``Robot.from_urdf``.
+        tips: links of several arms that move at once, in place of ``tip``.
         inflation: wanted bulge, m; missed where ``most`` is too small.
         most: spheres a piece of geometry, at most.
         folders: where ``package://`` paths may start.
@@ -112,7 +114,7 @@ def fit_spheres(
     covers = tuple(
         _link_cover(link, pieces, inflation, most) for link, pieces in geometry.items()
     )
-    robot = Robot.from_urdf(path, tip=tip)
+    robot = Robot.from_urdf(path, tip=tip, tips=tips)
     balls = {cover.link: cover.balls for cover in covers}
     disabled = _disabled(robot, urdf, balls, geometry)
     return FittedSpheres(covers, disabled, tuple(visual))

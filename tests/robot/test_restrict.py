@@ -3,6 +3,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from rrnn_opt.errors import RobotError
 from rrnn_opt.robot import Kinematics, Robot
 
 
@@ -50,3 +51,25 @@ def test_a_joint_may_mimic_a_mimic_joint(locked, tmp_path, oracle):
         values = oracle.pin_values(robot, q, oracle.mimic_couplings(path), locked)
         want, _ = oracle.pin_pose_jacobian(model, values, "camera")
         assert np.abs(np.array(camera(q)) - want).max() <= 1e-12
+
+
+def test_several_tips_move_all_their_joints_each_once(branched, oracle):
+    robot = Robot.from_urdf(branched, tips=["hand", "finger"])
+    first = Robot.from_urdf(branched, tip="hand").joint_names
+    more = Robot.from_urdf(branched, tip="finger").joint_names
+    assert robot.joint_names == tuple(dict.fromkeys(first + more))
+    assert len(robot.joint_names) > len(first)
+    assert robot.tip == "hand"
+    model, kin = pin.buildModelFromUrdf(str(branched)), Kinematics(robot)
+    both = ca.Function("T", [kin.q], [kin.pose("finger"), kin.pose("camera")])
+    for q in oracle.postures(robot, 3):
+        values = oracle.pin_values(robot, q, oracle.mimic_couplings(branched), {})
+        for pose, frame in zip(both(q), ("finger", "camera"), strict=True):
+            want, _ = oracle.pin_pose_jacobian(model, values, frame)
+            assert np.abs(np.array(pose) - want).max() <= 1e-12
+
+
+@pytest.mark.parametrize("tips", ["hand", ["hand", "camera"]])
+def test_one_tip_or_several_but_not_both(branched, tips):
+    with pytest.raises(RobotError, match="either one 'tip' or a sequence of 'tips'"):
+        Robot.from_urdf(branched, tip="hand" if len(tips) == 2 else None, tips=tips)
