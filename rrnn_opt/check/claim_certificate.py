@@ -35,6 +35,7 @@ from rrnn_opt.check import (
     claim_interval,
     claim_replay,
     claim_smt,
+    claim_sos,
     claim_terms,
 )
 from rrnn_opt.check.claim_answer import (
@@ -198,5 +199,6 @@ METHODS: dict[str, Judge] = {
     "terms": claim_terms.judge,
     "replay": claim_replay.judge,
     "smt": claim_smt.judge,
+    "sos": claim_sos.judge,
 }
 """The methods there are; each is the ``judge`` of its own module."""

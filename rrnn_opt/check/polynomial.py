@@ -63,22 +63,30 @@ class NormalForms:
             that are elements of variables.
         partial: operations met that are not defined everywhere, sorted.
         work: products of terms that were spent.
+        ring: the polynomial ring.
+        atoms: operation, operands and generator of every atom.
+        angles: angle, sine and cosine of every pair.
+        circles: number of the cosine and c^2 + s^2 - 1 of every pair.
     """
 
     results: dict[tuple[int, int], Polynomial]
     variables: dict[int, tuple[int, int]]
     partial: tuple[str, ...]
     work: int
+    ring: Any
+    atoms: tuple[tuple[str, tuple[Polynomial, ...], Polynomial], ...]
+    angles: tuple[tuple[Polynomial, Polynomial, Polynomial], ...]
+    circles: tuple[tuple[int, Polynomial], ...]
 
 
 def normal_forms(
-    graph: ClaimGraph, *, output: int = 0, work: int = WORK
+    graph: ClaimGraph, *, outputs: Sequence[int] = (0,), work: int = WORK
 ) -> NormalForms:
-    """Expand one output of a graph; what it does not need is not looked at.
+    """Expand some outputs of a graph; what they do not need is not looked at.
 
     Args:
         graph: claim as read.
-        output: number of the output; 0 is the goal.
+        outputs: their numbers; 0 is the goal.
         work: budget, products of two terms.
 
     Raises:
@@ -86,10 +94,10 @@ def normal_forms(
             not finite, a division by zero, or the budget is spent.
     """
     expansion = _Expansion(graph, work)
-    needed = _needed(graph, output)
+    needed = _needed(graph, outputs)
     for step in graph.steps:
         if step.op == "output":
-            if step.slot is not None and step.slot[0] == output:
+            if step.slot is not None and step.slot[0] in outputs:
                 expansion.results[step.slot] = expansion.values[step.args[0]]
         elif step.out in needed:
             expansion.values[step.out] = expansion.value(step)
@@ -98,14 +106,27 @@ def normal_forms(
         expansion.variables,
         tuple(sorted(expansion.partial)),
         work - expansion.budget,
+        expansion.ring,
+        tuple(expansion.atoms),
+        tuple(expansion.angles),
+        tuple(expansion.circles),
     )
 
 
-def _needed(graph: ClaimGraph, output: int) -> set[int]:
+def remainder(p: Polynomial, circles: Sequence[tuple[int, Polynomial]]) -> Polynomial:
+    """A polynomial with every square of a cosine replaced, (c^2 = 1 - s^2)."""
+    degrees = p.degrees()
+    for cosine, circle in circles:
+        if degrees[cosine] > 1:
+            p = p % circle
+    return p
+
+
+def _needed(graph: ClaimGraph, outputs: Sequence[int]) -> set[int]:
     needed: set[int] = set()
     for step in reversed(graph.steps):
         if step.op == "output":
-            wanted = step.slot is not None and step.slot[0] == output
+            wanted = step.slot is not None and step.slot[0] in outputs
         else:
             wanted = step.out in needed
         needed.update(step.args if wanted else ())
@@ -166,12 +187,9 @@ class _Expansion:
 
     def reduced(self, p: Polynomial) -> Polynomial:
         """Remainder by the relations c^2 + s^2 - 1."""
-        degrees = p.degrees()
-        for cosine, circle in self.circles:
-            if degrees[cosine] > 1:
-                p = p % circle
-                self.budget -= len(p)
-        return p
+        rest = remainder(p, self.circles)
+        self.budget -= len(rest) if self.circles else 0
+        return rest
 
     def pair(self, angle: Polynomial) -> tuple[Polynomial, Polynomial]:
         """(sin, cos) of an angle; sin(-a) = -sin(a), cos(-a) = cos(a)."""

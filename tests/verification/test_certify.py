@@ -39,7 +39,7 @@ def claim(expression, sense="==0", **more):
         (claim(x**2 + y[0] ** 2, ">0"), "REFUTED", "falsifier"),
         (claim(ca.sin(x) - x), "REFUTED", "falsifier"),
         (claim(x * (1 - x), ">=0"), "REFUTED", "falsifier"),
-        (claim(x * (1 - x), ">=0", domain=(UNIT,)), "PROVED", "smt"),
+        (claim(x * (1 - x), ">=0", domain=(UNIT,)), "PROVED", "products"),
         (claim(ca.exp(x) - 1 - x, ">=0"), "UNKNOWN", ""),
         (
             claim(

@@ -1,0 +1,158 @@
+"""What an identity of squares and products can be made of, up to a degree.
+
+The parts are those of :mod:`rrnn_opt.check.claim_sos`; the finders
+:mod:`products` (linear programme) and :mod:`sos` (semidefinite programme) look
+for their coefficients.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from rrnn_opt.check.polynomial import Polynomial, remainder
+from rrnn_opt.check.semialgebraic import Semialgebraic
+from rrnn_opt.errors import UndecidedError
+
+Monomial = tuple[tuple[int, int], ...]
+Sparse = dict[Monomial, Any]
+
+MAX_PARTS = 4000
+"""Products and multipliers of one relaxation."""
+
+
+@dataclass(frozen=True)
+class Relaxation:
+    """The parts at hand for one element of a goal.
+
+    Attributes:
+        setting: the claim as polynomials.
+        target: the polynomial that is to be shown non-negative.
+        strict: whether positive is claimed.
+        generators: numbers of the generators that matter.
+        products: inequalities multiplied, with the numbers of the factors; the
+            first is 1.
+        multipliers: (number of an equation, monomial).
+        degree: no part exceeds it.
+    """
+
+    setting: Semialgebraic
+    target: Polynomial
+    strict: bool
+    generators: tuple[int, ...]
+    products: tuple[tuple[tuple[int, ...], Polynomial], ...]
+    multipliers: tuple[tuple[int, Polynomial], ...]
+    degree: int
+
+    def reduced(self, p: Polynomial) -> Polynomial:
+        """A polynomial without squares of cosines."""
+        return remainder(p, self.setting.forms.circles)
+
+    def monomials(self, degree: int) -> list[Polynomial]:
+        """All monomials of the generators up to a degree, 1 first."""
+        return list(_monomials(self.setting, self.generators, degree))
+
+
+def relaxation(
+    setting: Semialgebraic, target: Polynomial, degree: int, *, strict: bool
+) -> Relaxation:
+    """All parts up to a degree.
+
+    Raises:
+        UndecidedError: there are too many.
+    """
+    generators = _relevant(setting, target)
+    inside = [
+        (k, g)
+        for k, g in enumerate(setting.inequalities)
+        if g != 0 and _generators(g) <= set(generators)
+    ]
+    products = list(_products(setting, inside, degree))
+    multipliers = [
+        (k, monomial)
+        for k, h in enumerate(setting.equalities)
+        if h != 0 and _generators(h) <= set(generators)
+        for monomial in _monomials(setting, generators, degree - h.total_degree())
+    ]
+    if len(products) + len(multipliers) > MAX_PARTS:
+        raise UndecidedError(
+            f"{len(products) + len(multipliers)} parts of degree {degree} are too many"
+        )
+    return Relaxation(
+        setting,
+        target,
+        strict,
+        generators,
+        tuple(products),
+        tuple(multipliers),
+        degree,
+    )
+
+
+def sparse(p: Polynomial) -> Sparse:
+    """Coefficients by monomial."""
+    if p == 0:
+        return {}
+    return {
+        tuple((g, int(e)) for g, e in enumerate(exponents) if e): coefficient
+        for exponents, coefficient in p.terms()
+    }
+
+
+def written(p: Polynomial) -> list[Any]:
+    """A polynomial as the payload writes it."""
+    return [[str(c), [list(power) for power in m]] for m, c in sparse(p).items()]
+
+
+def _generators(p: Polynomial) -> set[int]:
+    return {g for g, degree in enumerate(p.degrees()) if degree > 0}
+
+
+def _relevant(setting: Semialgebraic, target: Polynomial) -> tuple[int, ...]:
+    """Generators of the target, and of all that is said of them, repeatedly."""
+    known = _generators(target)
+    sets = [_generators(p) for p in (*setting.inequalities, *setting.equalities)]
+    sets += [_generators(circle) for _, circle in setting.forms.circles]
+    size = -1
+    while size != len(known):
+        size = len(known)
+        for generators in sets:
+            if generators & known:
+                known |= generators
+    return tuple(sorted(known))
+
+
+def _products(
+    setting: Semialgebraic, inside: Sequence[tuple[int, Polynomial]], degree: int
+) -> Iterator[tuple[tuple[int, ...], Polynomial]]:
+    """1, the inequalities, and products of two of them that share a generator."""
+    yield (), setting.forms.ring.constant(1)
+    for k, g in inside:
+        if g.total_degree() <= degree:
+            yield (k,), g
+    crowded = len(inside) > 40
+    for (j, f), (k, g) in itertools.combinations_with_replacement(inside, 2):
+        near = not crowded or _generators(f) & _generators(g)
+        if near and f.total_degree() + g.total_degree() <= degree:
+            yield (j, k), remainder(f * g, setting.forms.circles)
+    if degree > 2 and len(inside) <= 12:
+        for triple in itertools.combinations_with_replacement(inside, 3):
+            if sum(g.total_degree() for _, g in triple) <= degree:
+                (i, e), (j, f), (k, g) = triple
+                yield (i, j, k), remainder(e * f * g, setting.forms.circles)
+
+
+def _monomials(
+    setting: Semialgebraic, generators: Sequence[int], degree: int
+) -> Iterator[Polynomial]:
+    ring = setting.forms.ring
+    cosines = {cosine for cosine, _ in setting.forms.circles}
+    for d in range(degree + 1):
+        for chosen in itertools.combinations_with_replacement(generators, d):
+            if all(chosen.count(c) < 2 for c in cosines.intersection(chosen)):
+                monomial = ring.constant(1)
+                for g in chosen:
+                    monomial *= ring.gen(g)
+                yield monomial
