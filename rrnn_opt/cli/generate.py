@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
 from rrnn_opt.cli import named
 from rrnn_opt.cli.folders import folder
 from rrnn_opt.cli.output import Output
+
+if TYPE_CHECKING:
+    from rrnn_opt.embedding import Package
 
 TARGETS = ("host", "cortex-m4f", "cortex-m7")
 HELP = "write a scheme's controller as a C package"
@@ -40,7 +44,22 @@ def run(args: argparse.Namespace, out: Output) -> int:
     package = generate(
         law, prefix=args.prefix or robot.name, real=args.real, target=args.target
     )
+    package = _measured(package, args.target, out)
     written = package.write(target)
     out.document(package.manifest)
     out.say(f"wrote {written}")
     return 0
+
+
+def _measured(package: Package, target: str, out: Output) -> Package:
+    """The package with what it costs on its board, where that can be measured."""
+    from rrnn_opt.embedding.target import BOARDS, missing
+
+    if target not in BOARDS:
+        return package
+    if missing():
+        out.say(f"not measured on {target}: apt install {' '.join(missing())}")
+        return package
+    from rrnn_opt.embedding.target.measure import measured
+
+    return measured(package, BOARDS[target])

@@ -1,4 +1,7 @@
-"""Cortex-M boards: cross compile a package, weigh it, run it in an emulator."""
+"""Cortex-M boards: cross compile a package, weigh it, run it in an emulator.
+
+``measure`` is imported from its module: packages are made with files of this room.
+"""
 
 from __future__ import annotations
 
