@@ -10,7 +10,7 @@ from rrnn_opt.check.claim_answer import UNKNOWN
 from rrnn_opt.check.claim_certificate import CheckedCertificate, check_certificate
 from rrnn_opt.claim import Claim
 from rrnn_opt.errors import RrnnError, UndecidedError, UnsupportedOperationError
-from rrnn_opt.verification import falsify, normal, products, smt
+from rrnn_opt.verification import falsify, normal, products, smt, sos
 from rrnn_opt.verification.document import Witness, certificate_document
 from rrnn_opt.verification.engine import Engine
 from rrnn_opt.verification.inhabit import inhabitant
@@ -20,10 +20,11 @@ from rrnn_opt.verification.verdict import Verdict
 ENGINES: tuple[Engine, ...] = (
     Engine("identity", normal.propose_identity),
     Engine("terms", normal.propose_terms),
-    Engine("interval", interval.propose),
     Engine("falsifier", falsify.propose),
     Engine("products", products.propose),
     Engine("smt", smt.propose),
+    Engine("interval", interval.propose),
+    Engine("sos", sos.propose),
 )
 """All engines, in the order in which they are tried."""
 
