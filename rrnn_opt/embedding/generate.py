@@ -2,20 +2,52 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from rrnn_opt.dynamics import Dynamics
 from rrnn_opt.embedding import documents, render, render_source, render_tests
-from rrnn_opt.embedding.kernel import kernel
+from rrnn_opt.embedding.build_files import build_files
+from rrnn_opt.embedding.kernel import Kernel, kernel, pose
 from rrnn_opt.embedding.manifest import facts
 from rrnn_opt.embedding.options import Options
 from rrnn_opt.embedding.package import Package, with_manifest
-from rrnn_opt.embedding.programme import programme
+from rrnn_opt.embedding.programme import Programme, programme
+from rrnn_opt.embedding.step_bound import longest_step
 from rrnn_opt.embedding.target.files import target_files
-from rrnn_opt.embedding.vectors import SELFTEST_CASES, reference_vectors, tolerance
+from rrnn_opt.embedding.vectors import (
+    SELFTEST_CASES,
+    Vector,
+    reference_vectors,
+    tolerance,
+)
+from rrnn_opt.networks import Network
+from rrnn_opt.robot import Kinematics
+from rrnn_opt.symbolic import Tape
 
 
-def generate(dynamics: Dynamics, **options: Any) -> Package:
+@dataclass(frozen=True, eq=False)
+class _Parts:
+    """Everything that the files of a package are made from."""
+
+    core: Kernel
+    options: Options
+    exact: Programme | None
+    pose: Tape | None
+    longest: float | None
+    vectors: list[Vector]
+    close: float
+    words: dict[str, str]
+
+
+def generate(
+    dynamics: Dynamics,
+    *,
+    network: Network | None = None,
+    kinematics: Kinematics | None = None,
+    row_norm: float | None = None,
+    **options: Any,
+) -> Package:
     """Make a C99 package of a network: ``steps`` Euler steps in one call.
 
     The step is x+ = x + h f(x, parameters), emitted from the same expression
@@ -24,7 +56,14 @@ def generate(dynamics: Dynamics, **options: Any) -> Package:
 
     Args:
         dynamics: the network.
-        **options: fields of ``Options``: prefix, real, steps, step_size, ...
+        network: the rule that made it; with it the package knows, for some
+            networks, up to which Euler step it is safe, and refuses longer ones.
+        kinematics: of the robot; with them the package offers the pose and
+            Jacobian of the tip.
+        row_norm: upper bound of the norm of the inequality rows for all
+            parameters, as ``formulations.known_obstacles.row_bound`` gives.
+        **options: fields of ``Options``: prefix, real, steps, step_size,
+            tolerance, fallback, fused, trig, target.
 
     Returns:
         The package; ``.write(out_dir)`` makes its folder.
@@ -36,28 +75,55 @@ def generate(dynamics: Dynamics, **options: Any) -> Package:
     wanted = Options(**options)
     core = kernel(dynamics)
     exact = programme(dynamics) if wanted.fallback else None
-    vectors = reference_vectors(core, wanted)
-    close = tolerance(core, wanted, vectors)
+    form = dynamics.formulation
     longest = None
-    words = render.common_words(core, wanted, exact, longest)
-    prefix = wanted.prefix
-    few = vectors[:SELFTEST_CASES]
+    if network is not None and form is not None:
+        longest = longest_step(network, form, row_norm)
+    wanted.require_step_below(longest)
+    vectors = reference_vectors(core, wanted)
+    parts = _Parts(
+        core=core,
+        options=wanted,
+        exact=exact,
+        pose=None if kinematics is None else pose(kinematics),
+        longest=longest,
+        vectors=vectors,
+        close=tolerance(core, wanted, vectors),
+        words=render.common_words(core, wanted, exact, longest),
+    )
+    files = _sources(parts) | _tests(parts)
+    files |= build_files(core, wanted, parts.words) | target_files(wanted, parts.words)
+    files["README.md"] = documents.readme(core, parts.words, wanted, parts.close)
+    files["LICENSE"] = render.verbatim("APACHE-2.0.md")
+    return with_manifest(wanted.prefix, files, facts(core, wanted, network, longest))
 
-    def cases(which: list[Any], name: str) -> str:
-        return render_tests.vectors_header(core, which, words, wanted, name)
 
+def _sources(parts: _Parts) -> dict[str, str]:
+    core, options, words = parts.core, parts.options, parts.words
+    name = options.prefix
+    body = render_source.source(
+        core, options, words, parts.exact, parts.longest, parts.pose
+    )
+    few = parts.vectors[:SELFTEST_CASES]
     files = {
-        f"include/{prefix}.h": render_source.header(core, wanted, words),
-        f"src/{prefix}.c": render_source.source(core, wanted, words, exact, longest),
-        f"src/{prefix}_math.h": render_source.mathematics(wanted),
-        f"src/{prefix}_selftest.c": render_tests.selftest(words, wanted, close),
-        f"src/{prefix}_vectors.h": cases(few, "vectors"),
-        f"test/{prefix}_cases.h": cases(vectors, "cases"),
-        "test/test_host.c": render_tests.host_test(core, words, wanted, close),
-        "README.md": documents.readme(core, words, wanted, close),
-        "LICENSE": render.verbatim("APACHE-2.0.md"),
+        f"include/{name}.h": render_source.header(core, options, words, parts.pose),
+        f"src/{name}.c": body,
+        f"src/{name}_math.h": render_source.mathematics(options),
+        f"src/{name}_selftest.c": render_tests.selftest(words, options, parts.close),
+        f"src/{name}_vectors.h": render_tests.vectors_header(
+            core, few, words, options, "vectors"
+        ),
     }
-    if exact is not None:
-        files[f"src/{prefix}_qp.h"] = render_source.solver(exact, wanted)
-    files |= target_files(wanted, words)
-    return with_manifest(prefix, files, facts(core, wanted))
+    if parts.exact is not None:
+        files[f"src/{name}_qp.h"] = render_source.solver(parts.exact, options)
+    return files
+
+
+def _tests(parts: _Parts) -> dict[str, str]:
+    core, options, words = parts.core, parts.options, parts.words
+    return {
+        f"test/{options.prefix}_cases.h": render_tests.vectors_header(
+            core, parts.vectors, words, options, "cases"
+        ),
+        "test/test_host.c": render_tests.host_test(core, words, options, parts.close),
+    }

@@ -10,6 +10,7 @@ from rrnn_opt.dynamics import DiscreteDynamics, Dynamics, Euler
 from rrnn_opt.embedding.words import member
 from rrnn_opt.emit.c99 import parameter_names
 from rrnn_opt.lyapunov import merit
+from rrnn_opt.robot import Kinematics
 from rrnn_opt.symbolic import Symbol, Tape, shape_of
 
 STEP = Symbol.scalar("step_size", "s", "Euler step of the network")
@@ -188,3 +189,21 @@ def _output_field(dynamics: Dynamics, shape: tuple[int, int]) -> Field:
     if form is None or form.decision.shape != shape:
         return Field("output", shape, "1", "output of the network")
     return Field("output", shape, form.decision.unit, form.decision.meaning)
+
+
+def pose(kin: Kinematics) -> Tape:
+    """Forward kinematics of the tip: q to "position", "rotation", "jacobian".
+
+    The Jacobian has six rows, linear then angular, in base axes.
+
+    Args:
+        kin: kinematics of the robot.
+    """
+    frame = kin.pose()
+    outputs = {
+        "position": frame[:3, 3],
+        "rotation": frame[:3, :3],
+        "jacobian": kin.jacobian(kind="pose"),
+    }
+    values = [ca.densify(value) for value in outputs.values()]
+    return Tape.of(ca.Function("pose", [kin.q], values, ["q"], list(outputs)))

@@ -6,12 +6,26 @@ from dataclasses import asdict
 from importlib import metadata
 from typing import Any
 
+from rrnn_opt.dynamics import DiscreteDynamics
 from rrnn_opt.embedding.kernel import Field, Kernel
 from rrnn_opt.embedding.options import Options
+from rrnn_opt.networks import Network
 
 
-def facts(core: Kernel, options: Options) -> dict[str, Any]:
-    """Everything but the list of files; no dates and no machine names."""
+def facts(
+    core: Kernel,
+    options: Options,
+    network: Network | None,
+    longest: float | None,
+) -> dict[str, Any]:
+    """Everything but the list of files; no dates and no machine names.
+
+    Args:
+        core: the functions.
+        options: what was asked for.
+        network: the rule that made the dynamics, if it is known.
+        longest: Euler step, s, up to which a bound is known; None without.
+    """
     form = core.dynamics.formulation
     chosen = asdict(options)
     prefix = chosen.pop("prefix")
@@ -19,6 +33,10 @@ def facts(core: Kernel, options: Options) -> dict[str, Any]:
         "prefix": prefix,
         "model_hash": core.tape.fingerprint,
         "network": core.dynamics.name,
+        "rule": None
+        if network is None
+        else {"name": type(network).__name__, **asdict(network)},  # type: ignore[call-overload]
+        "discretisation": _discretisation(core, options, longest),
         "formulation": None
         if form is None
         else {
@@ -32,6 +50,19 @@ def facts(core: Kernel, options: Options) -> dict[str, Any]:
         "inputs": [_row(field) for field in core.inputs],
         "output": _row(core.output),
         "versions": {name: metadata.version(name) for name in ("rrnn_opt", "casadi")},
+    }
+
+
+def _discretisation(
+    core: Kernel, options: Options, longest: float | None
+) -> dict[str, Any]:
+    if isinstance(core.dynamics, DiscreteDynamics):
+        return {"method": "map", "steps": options.steps}
+    return {
+        "method": "explicit Euler",
+        "steps": options.steps,
+        "step_size_s": options.step_size,
+        "longest_step_s": longest,
     }
 
 

@@ -62,6 +62,21 @@ class Options:
         """Whether the package computes in single precision."""
         return self.real == "float"
 
+    def require_step_below(self, longest: float | None) -> None:
+        """Refuse a step size that the package itself would refuse.
+
+        Args:
+            longest: Euler step, s, up to which a bound is known; None without.
+
+        Raises:
+            RrnnError: it is too long.
+        """
+        if longest is not None and (self.step_size or 0.0) > longest:
+            raise RrnnError(
+                f"step size {self.step_size}: no step beyond {longest:.6g} s is known"
+                " to be safe; choose a shorter one"
+            )
+
     @property
     def exact(self) -> bool:
         """Whether results are defined to the bit."""

@@ -23,8 +23,11 @@ _SOLVER_NUMBERS = {
 dependent; lack of a redundant row; violation that counts as none."""
 
 
-def header(kernel: Kernel, options: Options, words: dict[str, str]) -> str:
+def header(
+    kernel: Kernel, options: Options, words: dict[str, str], pose: Tape | None
+) -> str:
     """include/<prefix>.h."""
+    struct, prototype = _kinematics_header(words, pose)
     real = f"{options.prefix}_real_t"
     return template(
         "header.h",
@@ -35,7 +38,8 @@ def header(kernel: Kernel, options: Options, words: dict[str, str]) -> str:
             or f"    {real} unused; /* the network has no parameters */",
             "out_fields": declaration(kernel.output, real),
             "selftest_how": " bit for bit" if options.exact else "",
-            "kinematics_part": "",
+            "kinematics_struct": struct,
+            "kinematics_part": prototype,
         },
     )
 
@@ -90,12 +94,15 @@ def source(
     words: dict[str, str],
     programme: Programme | None,
     longest: float | None,
+    pose: Tape | None,
 ) -> str:
     """src/<prefix>.c."""
     kernels, run = _steps(kernel, options)
     kernels += "\n" + c_function(
         kernel.monitor, "watch", real=options.real, compact=True
     )
+    if pose is not None:
+        kernels += "\n" + c_function(pose, "pose", real=options.real, compact=True)
     fallback = ""
     if programme is not None:
         kernels += "\n" + c_function(
@@ -114,9 +121,38 @@ def source(
             "fallback": fallback,
             "fallback_include": f'#include "{options.prefix}_qp.h"\n' * bool(fallback),
             "take_fallback": _take(words) * bool(fallback),
-            "kinematics": "",
+            "kinematics": _kinematics(words, pose),
         },
     )
+
+
+def _kinematics_header(words: dict[str, str], pose: Tape | None) -> tuple[str, str]:
+    """Struct and prototype of the forward kinematics."""
+    if pose is None:
+        return "", ""
+    name, nv = words["prefix"], pose.inputs[0].size
+    struct = (
+        "\n/* Where the tip is; matrices column-major, in base axes. */\n"
+        "typedef struct {\n"
+        f"    {name}_real_t position[3]; /* [m] */\n"
+        f"    {name}_real_t rotation[9]; /* 3x3 [1] */\n"
+        f"    {name}_real_t jacobian[{6 * nv}];"
+        f" /* 6x{nv}, linear then angular [m/rad or 1] */\n"
+        f"}} {name}_kinematics_t;\n"
+    )
+    prototype = (
+        "\n/* Pose and Jacobian of the tip at joint positions [rad or m].\n"
+        " * On failure the result is left as it was. */\n"
+        f"{name}_status_t {name}_kinematics(const {name}_real_t q[{nv}],\n"
+        f"                                  {name}_kinematics_t *kinematics);\n"
+    )
+    return struct, prototype
+
+
+def _kinematics(words: dict[str, str], pose: Tape | None) -> str:
+    if pose is None:
+        return ""
+    return template("kinematics.c", words | {"nv": str(pose.inputs[0].size)})
 
 
 def _checks(

@@ -91,7 +91,7 @@ typedef struct {
     int8_t row[${room_rows}]; /* 1 where an inequality row is active or violated */
     uint32_t verdict; /* bits ${PREFIX}_RESIDUAL_LARGE .. ${PREFIX}_ROW_ACTIVE */
 } ${prefix}_monitor_t;
-
+${kinematics_struct}
 /* Check the parameters and put the network at rest (state 0).
  * On failure the state is left as it was. */
 ${prefix}_status_t ${prefix}_init(${prefix}_state_t *state, const ${prefix}_param_t *param);
