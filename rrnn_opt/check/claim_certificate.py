@@ -33,6 +33,7 @@ from typing import Any, NoReturn, final
 from rrnn_opt.check import (
     claim_identity,
     claim_interval,
+    claim_lmi,
     claim_replay,
     claim_smt,
     claim_sos,
@@ -157,14 +158,17 @@ def check_certificate(document: Mapping[str, Any]) -> CheckedCertificate:
         stated = block["fingerprint"]
     except (KeyError, TypeError, ValueError) as error:
         raise DocumentError(WHERE, f"not readable ({error!r})") from error
-    if kind != KIND or method not in METHODS:
-        raise DocumentError(WHERE, f"kind '{kind}' or method '{method}' is unknown")
-    graph = read_claim(block)
+    form = block.get("form", "graph") if isinstance(block, dict) else None
+    if kind != KIND or form not in FORMS or method not in FORMS[form][1]:
+        what = f"kind '{kind}', form '{form}' or method '{method}'"
+        raise DocumentError(WHERE, f"{what} is unknown")
+    read, methods = FORMS[form]
+    graph = read(block)
     if graph.fingerprint != stated:
         reason = "the tape is not that of the claim which the fingerprint names"
         return CheckedCertificate(UNKNOWN, reason, text, seal=_SEAL)
     try:
-        answer = METHODS[method](graph, data.get("payload"), data)
+        answer = methods[method](graph, data.get("payload"), data)
         status, assumptions = _settled(graph, answer, data)
     except UndecidedError as error:
         return CheckedCertificate(UNKNOWN, error.reason, text, seal=_SEAL)
@@ -174,13 +178,15 @@ def check_certificate(document: Mapping[str, Any]) -> CheckedCertificate:
 
 
 def _settled(
-    graph: ClaimGraph, answer: Answer, data: Mapping[str, Any]
+    graph: Any, answer: Answer, data: Mapping[str, Any]
 ) -> tuple[str, tuple[str, ...]]:
     """Status and assumptions; a proof must be of something."""
     if answer.status != PROVED:
         return REFUTED, answer.assumptions
     witness, assumptions = data.get("witness"), graph.added + answer.assumptions
-    if witness is not None:
+    if not isinstance(graph, ClaimGraph):
+        pass  # a linear system always has solutions
+    elif witness is not None:
         claim_replay.require_admitted(graph, witness)
     elif len(graph.senses) > 1 or assumptions:
         raise UndecidedError("no witness shows that the hypotheses can be kept")
@@ -192,7 +198,7 @@ def versions() -> dict[str, str]:
     return {name: metadata.version(name) for name in ("rrnn_opt", "python-flint")}
 
 
-Judge = Callable[[ClaimGraph, Any, Any], Answer]
+Judge = Callable[[Any, Any, Any], Answer]
 METHODS: dict[str, Judge] = {
     "identity": claim_identity.judge,
     "interval": claim_interval.judge,
@@ -201,4 +207,13 @@ METHODS: dict[str, Judge] = {
     "smt": claim_smt.judge,
     "sos": claim_sos.judge,
 }
-"""The methods there are; each is the ``judge`` of its own module."""
+"""The methods for claims about a graph; each is the ``judge`` of its own module."""
+
+FORMS: dict[str, tuple[Callable[[Any], Any], dict[str, Judge]]] = {
+    "graph": (read_claim, METHODS),
+    "decay": (
+        claim_lmi.read_decay,
+        {"lmi": claim_lmi.judge, "spectrum": claim_lmi.judge_spectrum},
+    ),
+}
+"""How claims are written down, and the methods for each form."""

@@ -9,8 +9,9 @@ from typing import Any
 from rrnn_opt.check.claim_answer import UNKNOWN
 from rrnn_opt.check.claim_certificate import CheckedCertificate, check_certificate
 from rrnn_opt.claim import Claim
+from rrnn_opt.decay import DecayClaim
 from rrnn_opt.errors import RrnnError, UndecidedError, UnsupportedOperationError
-from rrnn_opt.verification import falsify, normal, products, smt, sos
+from rrnn_opt.verification import falsify, lmi, normal, products, smt, sos
 from rrnn_opt.verification.document import Witness, certificate_document
 from rrnn_opt.verification.engine import Engine
 from rrnn_opt.verification.inhabit import inhabitant
@@ -25,6 +26,7 @@ ENGINES: tuple[Engine, ...] = (
     Engine("smt", smt.propose),
     Engine("interval", interval.propose),
     Engine("sos", sos.propose),
+    Engine("lmi", lmi.propose, DecayClaim),
 )
 """All engines, in the order in which they are tried."""
 
@@ -33,7 +35,7 @@ BUDGET_S = 60.0
 
 
 def certify(
-    claim: Claim,
+    claim: Claim | DecayClaim,
     *,
     witnesses: Sequence[Witness] = (),
     engines: Sequence[str] | None = None,
@@ -69,7 +71,7 @@ def certify(
             a number that is not finite.
     """
     begin = time.perf_counter()
-    chosen = _chosen(engines)
+    chosen = _chosen(engines, claim)
     for point in witnesses:
         _require_names(claim, point)
     fingerprint = ""
@@ -91,22 +93,27 @@ def certify(
     return Verdict(fingerprint, residue=reasons, time_s=elapsed)
 
 
-def _chosen(names: Sequence[str] | None) -> tuple[Engine, ...]:
+def _chosen(
+    names: Sequence[str] | None, claim: Claim | DecayClaim
+) -> tuple[Engine, ...]:
     known = {engine.name: engine for engine in ENGINES}
     for name in names or ():
         if name not in known:
             raise RrnnError(f"engine '{name}': use one of {', '.join(known)}")
-    return tuple(e for e in ENGINES if names is None or e.name in names)
+    fit = [e for e in ENGINES if isinstance(claim, e.speaks_of)]
+    return tuple(e for e in fit if names is None or e.name in names)
 
 
-def _require_names(claim: Claim, point: Witness) -> None:
+def _require_names(claim: Claim | DecayClaim, point: Witness) -> None:
+    if isinstance(claim, DecayClaim):
+        raise RrnnError(f"{claim.id}: a claim of decay takes no witnesses")
     names = {symbol.name for symbol in claim.variables}
     if set(point) != names:
         raise RrnnError(f"{claim.id}: a witness names {', '.join(sorted(names))}")
 
 
 def _answers(
-    claim: Claim,
+    claim: Any,
     witnesses: Sequence[Witness],
     engines: Sequence[Engine],
     budget_s: float,
@@ -132,12 +139,12 @@ def _answers(
 class _Inhabited:
     """Adds to proofs a point that keeps the hypotheses, searched for once."""
 
-    def __init__(self, claim: Claim, witnesses: Sequence[Witness], seed: int) -> None:
+    def __init__(self, claim: Any, witnesses: Sequence[Witness], seed: int) -> None:
         self._search = (claim, witnesses, seed)
         self._known: list[Any] = []
 
     def completed(self, document: dict[str, Any]) -> dict[str, Any]:
-        if document["witness"] is not None:
+        if document["witness"] is not None or "tape" not in document["claim"]:
             return document
         if not self._known:
             self._known.append(inhabitant(*self._search))

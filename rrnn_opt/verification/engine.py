@@ -17,7 +17,7 @@ class Propose(Protocol):
     """
 
     def __call__(
-        self, claim: Claim, *, budget_s: float, seed: int
+        self, claim: Any, *, budget_s: float, seed: int
     ) -> Iterator[dict[str, Any]]:
         """Look for certificates for at most ``budget_s`` seconds."""
         ...
@@ -30,7 +30,9 @@ class Engine:
     Attributes:
         name: what ``certify(engines=...)`` and reports call it.
         propose: the function.
+        speaks_of: the kind of claim it can be asked about.
     """
 
     name: str
     propose: Propose
+    speaks_of: type = Claim
