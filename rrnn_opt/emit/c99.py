@@ -71,6 +71,7 @@ def c_function(
     real: Real = "double",
     static: bool = True,
     compact: bool = False,
+    inline: bool = False,
 ) -> str:
     """Emit ``void NAME(const real_t q[7], ..., real_t out[3])``.
 
@@ -82,6 +83,8 @@ def c_function(
         static: internal linkage; otherwise the function is exported and
             preceded by its prototype.
         compact: sines and cosines of arguments in one loop, for small code.
+        inline: put into its callers in any case, so that a loop over lanes
+            around it becomes vector instructions; needs ``static``.
 
     Returns:
         C99 text that follows :func:`rrnn_opt.emit.prologue`. Matrices are dense
@@ -96,6 +99,7 @@ def c_function(
     names = parameter_names(tape)
     head = _signature(tape, require_identifier(name), names)
     linkage = "static" if static else f"RRNN_EXPORT {head};\n"
+    linkage = "RRNN_INLINE" if static and inline else linkage
     lines = [_comment(tape, name), f"{linkage} {head}".replace("\n ", "\n"), "{"]
     lines += [f"    {line}" for line in _body(tape, names, real, compact)]
     return "\n".join([*lines, "}", ""])

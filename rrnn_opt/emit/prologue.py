@@ -29,9 +29,11 @@ typedef {real} real_t;
 #if defined(__GNUC__)
 #define RRNN_UNUSED __attribute__((unused))
 #define RRNN_EXPORT __attribute__((visibility("default")))
+#define RRNN_INLINE static inline __attribute__((always_inline))
 #else
 #define RRNN_UNUSED
 #define RRNN_EXPORT
+#define RRNN_INLINE static inline
 #endif
 """
 
@@ -59,7 +61,7 @@ def prologue(
     """Text that opens a translation unit.
 
     It defines ``real_t``, ``RRNN_C(0.5)`` (a literal of that type),
-    ``RRNN_SQRT``, ``RRNN_FABS``, ``RRNN_UNUSED``, ``RRNN_EXPORT``,
+    ``RRNN_SQRT``, ``RRNN_FABS``, ``RRNN_UNUSED``, ``RRNN_EXPORT``, ``RRNN_INLINE``,
     ``rrnn_sincos_t`` and ``rrnn_sincos``.
 
     Args:

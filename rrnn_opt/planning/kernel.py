@@ -21,9 +21,8 @@ from rrnn_opt.formulations.slide import (
 )
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.dispatch import dispatch
-from rrnn_opt.planning.tables import tables
+from rrnn_opt.planning.tables import LANES, tables
 from rrnn_opt.robot import Kinematics, Robot
-from rrnn_opt.robot.bound import ancestor_mask, reach
 from rrnn_opt.robot.motion_bound import motion_bound, travel
 from rrnn_opt.robot.robot import JointTree
 from rrnn_opt.scene.distance import PRIMITIVES, distance_function
@@ -33,7 +32,10 @@ RUNTIME = (
     "types.h",
     "memory.c",
     "broad.c",
+    "blocks.c",
+    "pairs.c",
     "world.c",
+    "project.c",
     "slide.c",
     "tree.c",
     "goals.c",
@@ -60,17 +62,18 @@ def _function(
 def frames_function(kin: Kinematics) -> ca.Function:
     """``q -> axes, origins, centers, tip_position, tip_rotation``.
 
-    Centres lie coordinate by coordinate, (ns, 3), so that loops over spheres
-    read contiguous numbers.
+    Centres lie coordinate by coordinate, filled up to whole blocks of lanes,
+    (nsp, 3), so that loops over spheres read contiguous numbers.
     """
-    tip = kin.pose()
+    tip, centres = kin.pose(), ca.transpose(kin.sphere_centres())
+    missing = -centres.shape[0] % LANES
     return _function(
         "k_frames",
         {"q": kin.q},
         {
             "axes": kin.axes(),
             "origins": kin.origins(),
-            "centers": ca.transpose(kin.sphere_centres()),
+            "centers": ca.vertcat(centres, ca.SX.zeros(missing, 3)),
             "tip_position": tip[:3, 3],
             "tip_rotation": tip[:3, :3],
         },
@@ -78,11 +81,11 @@ def frames_function(kin: Kinematics) -> ca.Function:
 
 
 def row_functions(robot: Robot) -> list[ca.Function]:
-    """Contact row, its right-hand side, the step's box, and both bounds."""
+    """Contact row, its right-hand side, and the step's box."""
     tree, nj, nv = robot.tree, robot.tree.nj, robot.nv
     axes, origins = ca.SX.sym("axes", 3, nj), ca.SX.sym("origins", 3, nj)
-    mask, lever = ca.SX.sym("mask", nj), ca.SX.sym("reach", nj)
-    point, n, u = ca.SX.sym("point", 3), ca.SX.sym("n", 3), ca.SX.sym("u", nv)
+    mask = ca.SX.sym("mask", nj)
+    point, n = ca.SX.sym("point", 3), ca.SX.sym("n", 3)
     q, low, high = (ca.SX.sym(name, nv) for name in ("q", "lower", "upper"))
     gap, margin, bound, radius = (
         ca.SX.sym(name) for name in ("gap", "margin", "bound", "radius")
@@ -105,24 +108,24 @@ def row_functions(robot: Robot) -> list[ca.Function]:
             {"q": q, "lower": low, "upper": high, "radius": radius},
             {"least": lower, "most": upper},
         ),
-        _function(
-            "k_motion_bound",
-            {"u": u, "reach": lever, "mask": mask},
-            {"bound": motion_bound(tree, u, lever, mask)},
-        ),
-        travel_function(robot),
     ]
 
 
-def travel_function(robot: Robot) -> ca.Function:
-    """``u -> way`` of every sphere, an upper bound in m."""
-    u = ca.SX.sym("u", robot.nv)
-    levers, masks = reach(robot), ancestor_mask(robot).astype(float)
-    ways = [
-        travel(robot.tree, u, ca.SX(levers[:, i]), ca.SX(masks[:, i]))
-        for i in range(len(robot.spheres))
+def motion_functions(robot: Robot) -> list[ca.Function]:
+    """What an increment u does to one sphere: velocity J u, bound B, way."""
+    tree, nj, nv = robot.tree, robot.tree.nj, robot.nv
+    axes, origins = ca.SX.sym("axes", 3, nj), ca.SX.sym("origins", 3, nj)
+    mask, lever = ca.SX.sym("mask", nj), ca.SX.sym("reach", nj)
+    point, u, eye = ca.SX.sym("point", 3), ca.SX.sym("u", nv), ca.SX.eye(3)
+    along = [row(tree, axes, origins, mask, point, eye[:, i]) @ u for i in range(3)]
+    place = {"axes": axes, "origins": origins, "mask": mask, "point": point}
+    rates = {"u": u, "reach": lever, "mask": mask}
+    bound, way = motion_bound(tree, u, lever, mask), travel(tree, u, lever, mask)
+    return [
+        _function("k_velocity", {**place, "u": u}, {"velocity": ca.vertcat(*along)}),
+        _function("k_motion_bound", rates, {"bound": bound}),
+        _function("k_travel", rates, {"way": way}),
     ]
-    return _function("k_travel", {"u": u}, {"way": ca.vertcat(*ways)})
 
 
 def _tip_jacobian(
@@ -206,14 +209,14 @@ def drive_functions(robot: Robot) -> list[ca.Function]:
 
 
 def pair_functions() -> list[ca.Function]:
-    """Distance of two points, alone and with the unit vector between them."""
+    """Distance of two points with the unit vector between them; its square."""
     a, b = ca.SX.sym("a", 3), ca.SX.sym("b", 3)
     d = ca.sqrt(ca.sumsqr(b - a))
     n = (b - a) / ca.fmax(d, 1e-12)
     points = {"a": a, "b": b}
     return [
-        _function("k_gap_pair", points, {"d": d}),
         _function("k_distance_pair", points, {"d": d, "n": n}),
+        _function("k_square", points, {"square": ca.sumsqr(b - a)}),
     ]
 
 
@@ -249,15 +252,16 @@ def emitted(robot: Robot, cell: MemoryCell) -> str:
         frames_function(Kinematics(robot)),
         *row_functions(robot),
         *drive_functions(robot),
-        *pair_functions(),
-        bounds_function(),
         *cell_functions(cell),
     ]
-    named = [(f, f.name()) for f in functions]
+    lanes = [*motion_functions(robot), *pair_functions(), bounds_function()]
+    named = [(f, f.name()) for f in lanes]
     named += [(distance_function(kind), f"k_distance_{kind}") for kind in PRIMITIVES]
     named += [(gap_function(kind), f"k_gap_{kind}") for kind in PRIMITIVES]
-    texts = [emit.c_function(f, name) for f, name in named]
-    return "\n".join([tables(robot), *texts, dispatch(tuple(PRIMITIVES))])
+    texts = [emit.c_function(f, f.name()) for f in functions]
+    texts += [emit.c_function(f, name, inline=True) for f, name in named]
+    loops = dispatch(tuple(PRIMITIVES), robot.tree.nj)
+    return "\n".join([tables(robot), *texts, loops])
 
 
 def source(robot: Robot, cell: MemoryCell) -> str:

@@ -15,8 +15,10 @@ from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.kernel import PREFIX, source
 from rrnn_opt.planning.settings import RandomRnn
 from rrnn_opt.planning.structs import (
+    NEAR_MAX,
     Closest,
     Contact,
+    Near,
     NearPair,
     Request,
     SearchCounts,
@@ -27,8 +29,9 @@ from rrnn_opt.robot import Robot
 
 Array = NDArray[np.float64]
 Tree = tuple[Array, NDArray[np.int64]]
-FLAGS = ("-O3",)
-"""Loops over spheres vectorise at this level; it changes no rounding."""
+FLAGS = ("-O3", "-ffp-contract=fast")
+"""Loops over lanes vectorise at this level; products and sums may be fused, which
+rounds once where two roundings are allowed for.  No fast-math."""
 STATUS = {0: "paused", 1: "solved", 2: "budget_exhausted", 3: "no_goal_posture"}
 
 
@@ -130,18 +133,24 @@ class Search:
 
     def step(self, q: Array, wish: Array) -> tuple[Array, list[NearPair]]:
         """One projected step at ``q`` for the wish, and the pairs it saw."""
-        u = np.zeros(self._nv)
+        u, near = np.zeros(self._nv), (Near * NEAR_MAX)()
         q, wish = (np.ascontiguousarray(v, dtype=np.float64) for v in (q, wish))
-        pointers = (q.ctypes.data, wish.ctypes.data, u.ctypes.data)
-        count = self._call("step", ct.c_int32, (ct.c_void_p,) * 3, *pointers)
-        return u, [self._near(i) for i in range(count)]
-
-    def _near(self, index: int) -> NearPair:
-        who, numbers = np.zeros(3, np.int32), np.zeros(5)
-        types = (ct.c_int32, ct.c_void_p, ct.c_void_p)
-        self._call("near", None, types, index, who.ctypes.data, numbers.ctypes.data)
-        gap, bound = float(numbers[0]), float(numbers[4])
-        return NearPair(int(who[0]), int(who[1]), int(who[2]), gap, numbers[1:4], bound)
+        pointers = (q.ctypes.data, wish.ctypes.data, u.ctypes.data, near)
+        count = self._call("step", ct.c_int32, (ct.c_void_p,) * 4, *pointers)
+        bound = self._runtime.function(
+            "bound", ct.c_double, ct.POINTER(Near), ct.c_void_p
+        )
+        return u, [
+            NearPair(
+                pair.sphere,
+                pair.other,
+                pair.group,
+                pair.gap,
+                np.array(pair.normal),
+                bound(ct.byref(pair), wish.ctypes.data),
+            )
+            for pair in near[: max(count, 0)]
+        ]
 
     def path(self) -> Array:
         """Waypoints of the path found, (N, nv)."""

@@ -24,6 +24,7 @@ class RandomRnn:
         stall_ratio: share of the way that a window must leave at most.
         max_slide_steps: longest slide, steps.
         sweeps: Gauss-Seidel sweeps of the dual network a pass.
+        sweep_least: a pass ends when a sweep moves u by no more, rad.
         rows_per_pass: most violated rows added a pass.
         passes: passes of row generation.
         node_gap: spacing of the nodes along a slide, rad.
@@ -50,6 +51,7 @@ class RandomRnn:
     stall_ratio: float = 0.98
     max_slide_steps: int = 400
     sweeps: int = 10
+    sweep_least: float = 0.0
     rows_per_pass: int = 8
     passes: int = 3
     node_gap: float = 0.5

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from rrnn_opt.planning.settings import RandomRnn
 
 Array = NDArray[np.float64]
+NEAR_MAX = 4096
+"""Pairs that a step lists, at most; as in runtime/types.h."""
 
 
 class Settings(ct.Structure):
@@ -28,6 +30,7 @@ class Settings(ct.Structure):
                 "node_gap",
                 "ik_step",
                 "ik_share",
+                "sweep_least",
                 "coin",
             )
         ),
@@ -110,6 +113,18 @@ class Closest(ct.Structure):
     )
 
 
+class Near(ct.Structure):
+    """``near_t``."""
+
+    _fields_ = (
+        ("sphere", ct.c_int32),
+        ("other", ct.c_int32),
+        ("group", ct.c_int32),
+        ("gap", ct.c_double),
+        ("normal", ct.c_double * 3),
+    )
+
+
 def settings_struct(settings: RandomRnn) -> Settings:
     """``settings_t`` of a planner's settings."""
     return Settings(
@@ -121,6 +136,7 @@ def settings_struct(settings: RandomRnn) -> Settings:
         node_gap=settings.node_gap,
         ik_step=settings.ik_step,
         ik_share=settings.ik_share,
+        sweep_least=settings.sweep_least,
         coin=-1.0 if settings.coin is None else settings.coin,
         max_slide_steps=settings.max_slide_steps,
         stall_window=settings.stall_window,

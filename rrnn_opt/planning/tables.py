@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,9 @@ from rrnn_opt.robot.bound import ancestor_mask, reach
 from rrnn_opt.robot.robot import BASE, PRISMATIC, Robot
 
 Array = NDArray[np.float64]
+LANES = 8
+"""Spheres or sphere pairs that the runtime looks at together."""
+FAR = 1e300
 
 
 def _c_table(kind: str, name: str, values: Iterable[float]) -> str:
@@ -72,63 +75,114 @@ def _pair_groups(
     return [pairs[k] for k in order], [groups[k] for k in order], masks
 
 
-def _radii(robot: Robot, i: int, j: int) -> float:
-    return robot.spheres[i].radius + robot.spheres[j].radius
+def _padded(values: Array, fill: float) -> Array:
+    """Columns filled up to a multiple of ``LANES``."""
+    missing = -values.shape[-1] % LANES
+    return np.pad(values, [(0, 0), (0, missing)], constant_values=fill)
 
 
-def _block_tables(
-    pairs: list[tuple[int, int]], groups: list[int], count: int
-) -> list[str]:
-    """Blocks of a group: one sphere against a run of consecutive ones."""
-    starts = [
-        p
-        for p, (i, j) in enumerate(pairs)
-        if p == 0 or groups[p] != groups[p - 1] or pairs[p - 1] != (i, j - 1)
-    ]
-    owners = [groups[p] for p in starts]
-    first = np.searchsorted(owners, range(count + 1))
+def _sphere_tables(robot: Robot, reaches: Array, mask: Array) -> list[str]:
+    """Radii, reaches and levers of the spheres, a joint after the other.
+
+    Lanes without a sphere that can move have a radius of -1e300, which puts
+    them out of reach of everything.
+    """
+    moves = [sphere.joint != BASE for sphere in robot.spheres]
+    radii = [s.radius if m else -FAR for s, m in zip(robot.spheres, moves, strict=True)]
     return [
-        _c_table("int32_t", "t_block_pair", [*starts, len(pairs)]),
-        _c_table("int32_t", "t_group_block", first),
+        _c_table("double", "t_radius", _padded(np.array([radii]), -FAR).ravel()),
+        _c_table("double", "t_lane_reach", _padded(reaches, 0.0).ravel()),
+        _c_table("double", "t_lane_mask", _padded(mask, 0.0).ravel()),
+        _c_table(
+            "double",
+            "t_lever",
+            _padded(levers(robot, reaches, mask)[None], 0.0).ravel(),
+        ),
+        _c_table("double", "t_reach", reaches.T.ravel()),
+        _c_table("double", "t_mask", mask.T.ravel()),
+    ]
+
+
+def _runs(pairs: list[tuple[int, int]]) -> Iterator[list[tuple[int, int]]]:
+    """Pairs (i, j), (i, j + 1), ... of one sphere i, at most ``LANES`` at once."""
+    run: list[tuple[int, int]] = []
+    for i, j in pairs:
+        if run and (len(run) == LANES or run[-1] != (i, j - 1)):
+            yield run
+            run = []
+        run.append((i, j))
+    if run:
+        yield run
+
+
+def _pair_lanes(
+    robot: Robot, reaches: Array, run: list[tuple[int, int]], masks: tuple[Array, Array]
+) -> tuple[Array, Array, Array]:
+    """Radii and levers of a block's lanes, and the largest reach of each joint."""
+    radii, rates = np.full(LANES, -FAR), np.zeros(LANES)
+    ways = np.zeros(len(reaches))
+    for lane, pair in enumerate(run):
+        columns = [
+            reaches[:, [s]] * m[:, None] for s, m in zip(pair, masks, strict=True)
+        ]
+        radii[lane] = sum(robot.spheres[s].radius for s in pair)
+        rates[lane] = sum(
+            float(levers(robot, reaches[:, [s]], m[:, None])[0])
+            for s, m in zip(pair, masks, strict=True)
+        )
+        ways = np.maximum(ways, (columns[0] + columns[1])[:, 0])
+    return radii, rates, ways
+
+
+def _pair_tables(robot: Robot, reaches: Array) -> tuple[dict[str, int], list[str]]:
+    """Sphere pairs in blocks: one sphere i against ``LANES`` consecutive ones."""
+    pairs, groups, masks = _pair_groups(robot)
+    blocks: list[tuple[int, int, int]] = []
+    radii, rates = np.zeros((0, LANES)), np.zeros((0, LANES))
+    ways = np.zeros((robot.tree.nj, len(masks)))
+    for g, mask in enumerate(masks):
+        mine = [pair for pair, group in zip(pairs, groups, strict=True) if group == g]
+        for run in _runs(mine):
+            blocks.append((*run[0], g))
+            radius, rate, way = _pair_lanes(robot, reaches, run, mask)
+            radii, rates = np.vstack([radii, radius]), np.vstack([rates, rate])
+            ways[:, g] = np.maximum(ways[:, g], way)
+    either = np.array([np.maximum(*m) for m in masks]).reshape(-1, robot.tree.nj).T
+    sizes = {"NG": len(masks), "NQ": len(blocks), "NGP": _padded(ways, 0.0).shape[1]}
+    return sizes, [
+        _c_table("int32_t", "t_pair_i", [i for i, _, _ in blocks]),
+        _c_table("int32_t", "t_pair_j", [j for _, j, _ in blocks]),
+        _c_table("int32_t", "t_pair_group", [g for _, _, g in blocks]),
+        _c_table("double", "t_pair_radius", radii.ravel()),
+        _c_table("double", "t_pair_lever", rates.ravel()),
+        _c_table("double", "t_pair_idle", np.where(radii > 0.0, 0.0, FAR).ravel()),
+        _c_table("double", "t_pair_size", np.max(radii, axis=1, initial=-FAR)),
+        _c_table("double", "t_pair_rate", np.max(rates, axis=1, initial=0.0)),
+        _c_table("double", "t_group_reach", _padded(ways, 0.0).ravel()),
+        _c_table("double", "t_group_mask", _padded(either, 0.0).ravel()),
+        _c_table("double", "t_group_i", np.ravel([m[0] for m in masks])),
+        _c_table("double", "t_group_j", np.ravel([m[1] for m in masks])),
     ]
 
 
 def tables(robot: Robot) -> str:
-    """Sizes and tables that the planner's runtime reads, as C text."""
+    """Sizes and tables that the planner's runtime reads, as C text.
+
+    ``NS`` spheres lie in ``NSP`` lanes, ``NB`` blocks of ``LANES``; ``NQ``
+    blocks hold the sphere pairs of ``NG`` groups in ``NGP`` lanes.
+    """
     reaches, mask = reach(robot), ancestor_mask(robot).astype(float)
-    pairs, groups, masks = _pair_groups(robot)
-    pair_levers = [
-        float(
-            levers(robot, reaches[:, [i]], masks[g][0][:, None])[0]
-            + levers(robot, reaches[:, [j]], masks[g][1][:, None])[0]
-        )
-        for (i, j), g in zip(pairs, groups, strict=True)
-    ]
-    bounds = range(len(masks) + 1)
+    spheres = len(robot.spheres)
+    blocks = -(-spheres // LANES)
+    pair_sizes, pair_tables = _pair_tables(robot, reaches)
     sizes = {
+        "LANES": LANES,
         "NV": robot.nv,
         "NJ": robot.tree.nj,
-        "NS": len(robot.spheres),
-        "NP": len(pairs),
-        "NG": len(masks),
+        "NS": spheres,
+        "NB": blocks,
+        "NSP": LANES * blocks,
+        **pair_sizes,
     }
     defines = "".join(f"#define {k} {v}\n" for k, v in sizes.items())
-    moves = [sphere.joint != BASE for sphere in robot.spheres]
-    double, integer = "double", "int32_t"
-    return defines + "".join(
-        [
-            _c_table(double, "t_radius", [s.radius for s in robot.spheres]),
-            _c_table(double, "t_idle", [0.0 if m else 1e300 for m in moves]),
-            _c_table(double, "t_reach", reaches.T.ravel()),
-            _c_table(double, "t_mask", mask.T.ravel()),
-            _c_table(double, "t_lever", levers(robot, reaches, mask)),
-            _c_table(integer, "t_pair_i", [i for i, _ in pairs]),
-            _c_table(integer, "t_pair_j", [j for _, j in pairs]),
-            _c_table(double, "t_pair_radius", [_radii(robot, *pair) for pair in pairs]),
-            _c_table(integer, "t_group_first", np.searchsorted(groups, bounds)),
-            *_block_tables(pairs, groups, len(masks)),
-            _c_table(double, "t_pair_lever", pair_levers),
-            _c_table(double, "t_group_i", np.ravel([m[0] for m in masks])),
-            _c_table(double, "t_group_j", np.ravel([m[1] for m in masks])),
-        ]
-    )
+    return defines + "".join([*_sphere_tables(robot, reaches, mask), *pair_tables])

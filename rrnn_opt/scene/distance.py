@@ -188,4 +188,4 @@ def _unit_or(v: ca.SX, length: ca.SX, unit: ca.SX) -> tuple[ca.SX, ca.SX]:
     squared = ca.dot(v, v)
     far = squared > TINY * TINY
     divisor = ca.sqrt(ca.if_else(far, squared, 1))
-    return ca.if_else(far, divisor, length), ca.if_else(far, v, unit) / divisor
+    return ca.if_else(far, divisor, length), ca.if_else(far, v, unit) * (1 / divisor)

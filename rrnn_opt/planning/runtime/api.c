@@ -53,6 +53,7 @@ RRNN_EXPORT void NAME(free)(planner_t *planner)
 {
     if (planner != NULL) {
         free(planner->world.key);
+        free(planner->world.node_key);
         free(planner->world.stamp);
         free(planner->tree[0].nodes);
         free(planner->tree[1].nodes);
@@ -71,13 +72,15 @@ RRNN_EXPORT planner_t *NAME(create)(const settings_t *settings, const request_t 
     if (planner == NULL) {
         return NULL;
     }
-    const size_t keys = (size_t)request->obstacle_count + (size_t)request->nodes + 1;
+    const size_t solids = (size_t)request->obstacle_count;
+    const size_t nodes = (size_t)request->nodes;
     const size_t tips = (size_t)request->tip_goal_count + 1;
     planner->set = *settings;
     world_open(&planner->world, request);
     planner->world.margin = request->margin;
-    planner->world.key = malloc(keys * sizeof(double));
-    planner->world.stamp = calloc(keys, sizeof(uint32_t));
+    planner->world.key = malloc((solids * NB + 1) * sizeof(double));
+    planner->world.node_key = malloc((nodes + 1) * sizeof(double));
+    planner->world.stamp = calloc(solids + nodes + 1, sizeof(uint32_t));
     planner->tips = malloc(tips * sizeof(tip_goal_t));
     planner->tip_count = request->tip_goal_count;
     planner->activity = settings->coin >= 0.0 ? settings->coin : 0.0;
@@ -87,8 +90,8 @@ RRNN_EXPORT planner_t *NAME(create)(const settings_t *settings, const request_t 
     memcpy(planner->sample_lower, request->sample_lower, sizeof planner->lower);
     memcpy(planner->sample_upper, request->sample_upper, sizeof planner->upper);
     rng_seed(&planner->rng, request->seed);
-    if (planner->world.key == NULL || planner->world.stamp == NULL ||
-        planner->tips == NULL) {
+    if (planner->world.key == NULL || planner->world.node_key == NULL ||
+        planner->world.stamp == NULL || planner->tips == NULL) {
         NAME(free)(planner);
         return NULL;
     }
@@ -137,13 +140,14 @@ RRNN_EXPORT int32_t NAME(closest)(planner_t *planner, const double *q, double ra
     world_reset(&planner->world);
     const int32_t complete = world_near_within(&planner->world, &pose, &radius);
     *out = (closest_t){1e300, -1, -1, 0, 0};
-    for (int32_t p = 0; p < planner->world.near_count; p++) {
-        const near_t *pair = &planner->world.near[p];
-        if (pair->gap < out->gap) {
-            out->gap = pair->gap;
-            out->sphere = pair->sphere;
-            out->other = pair->other;
-            out->is_self = pair->group >= 0;
+    for (int32_t p = 0; p < planner->world.open_count; p++) {
+        const block_t *block = &planner->world.open[p];
+        for (int32_t l = 0; l < LANES; l++) {
+            if (block->gap[l] < out->gap && lane_near(block, l, radius)) {
+                const near_t pair = pair_of(block, l);
+                *out = (closest_t){pair.gap, pair.sphere, pair.other,
+                                   pair.group >= 0, 0};
+            }
         }
     }
     return complete;
@@ -151,33 +155,23 @@ RRNN_EXPORT int32_t NAME(closest)(planner_t *planner, const double *q, double ra
 
 /* One projected step at q for the wish w; returns the number of near pairs. */
 RRNN_EXPORT int32_t NAME(step)(planner_t *planner, const double *q, const double *w,
-                               double *u)
+                               double *u, near_t *list)
 {
+    const double radius = planner->set.max_step;
     pose_t pose;
     pose_at(q, &pose);
     world_reset(&planner->world);
-    if (!world_near(&planner->world, &pose, planner->set.max_step)) {
+    if (!world_near(&planner->world, &pose, radius)) {
         return -1;
     }
-    project(planner, q, &pose, w, planner->set.max_step, u);
-    for (int32_t p = 0; p < planner->world.near_count; p++) {
-        near_t *pair = &planner->world.near[p];
-        pair->bound = near_bound(pair, w);
-    }
-    return planner->world.near_count;
+    project(planner, q, &pose, w, radius, u);
+    return near_list(&planner->world, radius, list, NEAR_MAX);
 }
 
-/* Near pair `index` of the last step: sphere, other, group; gap, n, bound. */
-RRNN_EXPORT void NAME(near)(const planner_t *planner, int32_t index, int32_t *who,
-                            double *numbers)
+/* Motion bound B of a pair for the increment u. */
+RRNN_EXPORT double NAME(bound)(const near_t *pair, const double *u)
 {
-    const near_t *pair = &planner->world.near[index];
-    who[0] = pair->sphere;
-    who[1] = pair->other;
-    who[2] = pair->group;
-    numbers[0] = pair->gap;
-    memcpy(numbers + 1, pair->n, 3 * sizeof(double));
-    numbers[4] = pair->bound;
+    return near_bound(pair, u);
 }
 
 /* Takes a proved path and shortens it by `attempts` slides. */

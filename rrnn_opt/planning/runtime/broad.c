@@ -4,9 +4,9 @@
  * small scene.  The others hang on a tree of boxes, eight children a node,
  * children side by side; nodes from `leaf` on hold solids.
  *
- * A key is the way that the robot's spheres may go before a solid or a node
- * can be in reach; it counts while its stamp is that of the last reset.
- * Keys of nodes lie behind those of the solids. */
+ * A node's key is the way that the robot's spheres may go before it can be in
+ * reach; it counts while its stamp is that of the last reset.  Stamps of nodes
+ * lie behind those of the solids. */
 
 #define BROAD_STACK 80
 
@@ -26,49 +26,59 @@ static void broad_begin(const world_t *world, broad_t *walk)
     }
 }
 
-static int world_far(const world_t *world, int32_t index)
+static int node_far(const world_t *world, int32_t node)
 {
-    return world->stamp[index] == world->epoch && world->key[index] > world->way;
+    return world->stamp[world->count + node] == world->epoch &&
+           world->node_key[node] > world->farthest;
 }
 
-static void world_key(world_t *world, int32_t index, double least)
+static void node_keep(world_t *world, int32_t node, double least)
 {
-    world->stamp[index] = world->epoch;
-    world->key[index] = world->way + least;
+    world->stamp[world->count + node] = world->epoch;
+    world->node_key[node] = world->farthest + least;
 }
 
-/* Least entry, in eight lanes that vectorise. */
-static double least_of(const double *values, int32_t count)
+static inline double lesser(double a, double b)
 {
-    double lanes[8], least = 1e300;
-    int32_t i = 0;
-    for (int32_t k = 0; k < 8; k++) {
-        lanes[k] = 1e300;
-    }
-    for (; i + 8 <= count; i += 8) {
-        for (int32_t k = 0; k < 8; k++) {
-            lanes[k] = values[i + k] < lanes[k] ? values[i + k] : lanes[k];
-        }
-    }
-    for (; i < count; i++) {
-        least = values[i] < least ? values[i] : least;
-    }
-    for (int32_t k = 0; k < 8; k++) {
-        least = lanes[k] < least ? lanes[k] : least;
-    }
-    return least;
+    return a < b ? a : b;
+}
+
+static inline double greater(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* Least entry of a block of eight. */
+static inline double least_of(const double *v)
+{
+    return lesser(lesser(lesser(v[0], v[1]), lesser(v[2], v[3])),
+                  lesser(lesser(v[4], v[5]), lesser(v[6], v[7])));
+}
+
+/* Greatest entry of a block of eight. */
+static inline double greatest_of(const double *v)
+{
+    return greater(greater(greater(v[0], v[1]), greater(v[2], v[3])),
+                   greater(greater(v[4], v[5]), greater(v[6], v[7])));
 }
 
 /* Least spare of all spheres above a node's box. */
 static double broad_spare(const world_t *world, const pose_t *pose, int32_t node,
                           double radius)
 {
-    double spare[NS];
-    k_gaps_bounds(world->node_bounds + 6 * node, pose->centers, spare);
-    for (int32_t i = 0; i < NS; i++) {
-        spare[i] -= t_radius[i] + world->margin + radius * t_lever[i] - t_idle[i];
+    const double *bounds = world->node_bounds + 6 * node;
+    double least = 1e300;
+    for (int32_t first = 0; first < NSP; first += LANES) {
+        double spare[LANES];
+        k_gaps_bounds(bounds, pose->centers + first, spare);
+        for (int32_t l = 0; l < LANES; l++) {
+            spare[l] -= t_radius[first + l] + world->margin +
+                        radius * t_lever[first + l];
+        }
+        const double found = least_of(spare);
+        least = found < least ? found : least;
     }
-    return least_of(spare, NS);
+    return least;
 }
 
 /* The next solid that may be in reach, or -1. */
@@ -80,11 +90,11 @@ static int32_t broad_next(world_t *world, const pose_t *pose, double radius,
             return -1;
         }
         const int32_t node = walk->stack[--walk->top];
-        if (world_far(world, world->count + node)) {
+        if (node_far(world, node)) {
             continue;
         }
         const double least = broad_spare(world, pose, node, radius);
-        world_key(world, world->count + node, least);
+        node_keep(world, node, least);
         if (least > 0.0) {
             continue;
         }

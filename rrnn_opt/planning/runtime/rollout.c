@@ -59,6 +59,8 @@ typedef struct {
     int32_t count, room;
     band_t bands[BAND_MAX];
     int32_t band_count;
+    near_t near[NEAR_MAX];
+    int32_t near_count;
     int32_t turns;
 } rollouts_t;
 
@@ -70,12 +72,17 @@ static int near_contacts(rollouts_t *r, const pose_t *pose)
     world->margin += r->set.safe;
     const int complete = world_near(world, pose, r->set.radius);
     world->margin -= r->set.safe;
-    for (int32_t p = 0; p < world->near_count; p++) {
-        if (world->near[p].group < 0) {
-            world->near[p].gap += r->set.safe;
+    r->near_count = near_list(world, r->set.radius, r->near, NEAR_MAX);
+    for (int32_t p = 0; p < world->open_count; p++) {
+        block_t *block = &world->open[p];
+        for (int32_t l = 0; l < LANES && block->group < 0; l++) {
+            block->gap[l] += r->set.safe;
         }
     }
-    return complete;
+    for (int32_t p = 0; p < r->near_count; p++) {
+        r->near[p].gap += r->near[p].group < 0 ? r->set.safe : 0.0;
+    }
+    return complete && r->near_count < NEAR_MAX;
 }
 
 /* Cuts the box by the sign sets (12) of every obstacle within `safe`; returns
@@ -83,10 +90,9 @@ static int near_contacts(rollouts_t *r, const pose_t *pose)
 static int32_t sign_sets(rollouts_t *r, const pose_t *pose, double *lower,
                          double *upper)
 {
-    world_t *world = &r->base->world;
     int32_t found = 0;
-    for (int32_t p = 0; p < world->near_count; p++) {
-        near_t *pair = &world->near[p];
+    for (int32_t p = 0; p < r->near_count; p++) {
+        const near_t *pair = &r->near[p];
         const double *moves = t_turns + NV * pair->sphere;
         double escape[NV] = {0}, first[NV] = {0}, least[NV], most[NV];
         if (pair->group >= 0 || pair->gap > r->set.safe) {
@@ -99,7 +105,7 @@ static int32_t sign_sets(rollouts_t *r, const pose_t *pose, double *lower,
             }
             moves = first;
         } else {
-            memcpy(escape, near_row(pair, pose), sizeof escape);
+            near_row(pair, pose, escape);
         }
         k_sign_set(escape, moves, lower, upper, least, most);
         memcpy(lower, least, sizeof least);

@@ -72,11 +72,10 @@ static void drop_bands(rollouts_t *r)
 /* The contacts nearest within `safe`, at most `contacts`; returns how many. */
 static int32_t nearest_contacts(rollouts_t *r, near_t **list)
 {
-    world_t *world = &r->base->world;
     const int32_t most = r->set.contacts;
     int32_t found = 0;
-    for (int32_t p = 0; p < world->near_count; p++) {
-        near_t *pair = &world->near[p];
+    for (int32_t p = 0; p < r->near_count; p++) {
+        near_t *pair = &r->near[p];
         if (pair->group >= 0 || pair->gap > r->set.safe ||
             (found == most && pair->gap >= list[found - 1]->gap)) {
             continue;

@@ -14,21 +14,17 @@ static int piece_verdict(planner_t *planner, const double *middle, const double 
     if (!world_near(world, &pose, radius)) {
         return 0;
     }
-    double way[NS];
-    k_travel(h, way);
     int proved = 1;
-    for (int32_t p = 0; p < world->near_count; p++) {
-        near_t *pair = &world->near[p];
-        if (pair->gap < slack) {
-            return -1;
-        }
-        if (!proved || pair->gap - near_way(pair, way) >= slack) {
-            continue;
-        }
-        const double drift = hildreth_dot(NV, near_row(pair, &pose), h);
-        const double loss = drift < 0.0 ? -drift : drift;
-        if (!(pair->gap - loss - 0.5 * near_bound(pair, h) >= slack)) {
-            proved = 0;
+    world_measure(world, &pose, h);
+    for (int32_t p = 0; p < world->open_count; p++) {
+        const block_t *block = &world->open[p];
+        for (int32_t l = 0; l < LANES; l++) {
+            const double drift = block->drift[l];
+            const double loss = drift < 0.0 ? -drift : drift;
+            if (block->gap[l] < slack) {
+                return -1;
+            }
+            proved &= block->gap[l] - loss - 0.5 * block->bound[l] >= slack;
         }
     }
     return proved;

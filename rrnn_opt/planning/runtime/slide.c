@@ -1,13 +1,5 @@
 /* One exploration: slide towards a target, every step proved when taken. */
 
-static double norm_of(const double *a)
-{
-    double sum = hildreth_dot(NV, a, a);
-    double root;
-    k_sqrt(&sum, &root);
-    return root;
-}
-
 static double distance_between(const double *a, const double *b)
 {
     double difference[NV];
@@ -44,96 +36,6 @@ static double drive(const planner_t *planner, const double *q, const pose_t *pos
     return error[0] + (tip->has_rotation ? error[1] : 0.0);
 }
 
-typedef struct {
-    near_t *pair;
-    double right;         /* right-hand side of the row, m */
-    int32_t used;
-} candidate_t;
-
-/* Pairs that the wish could close, with their rows at B(w). */
-static int32_t candidates(planner_t *planner, const pose_t *pose, const double *w,
-                          candidate_t *list)
-{
-    world_t *world = &planner->world;
-    const double *steering = &planner->set.steering;
-    double way[NS];
-    int32_t count = 0;
-    k_travel(w, way);
-    for (int32_t p = 0; p < world->near_count; p++) {
-        near_t *pair = &world->near[p];
-        if (pair->gap - near_way(pair, way) < *steering) {
-            near_row(pair, pose);
-            pair->bound = near_bound(pair, w);
-            list[count].pair = pair;
-            list[count].used = 0;
-            k_offset(&pair->gap, steering, &pair->bound, &list[count].right);
-            count++;
-        }
-    }
-    return count;
-}
-
-/* Puts the rows most violated at u behind the others; returns how many. */
-static int32_t violated_rows(const planner_t *planner, const double *u,
-                             candidate_t *list, int32_t size, double *rows,
-                             double *h, int32_t count)
-{
-    int32_t worst[PASS_MAX], found = 0, most = planner->set.rows_per_pass;
-    double residuals[PASS_MAX];
-    most = most < PASS_MAX ? most : PASS_MAX;
-    most = most < ROW_MAX - count ? most : ROW_MAX - count;
-    for (int32_t c = 0; c < size && most > 0; c++) {
-        const double residual =
-            hildreth_dot(NV, list[c].pair->row, u) - list[c].right;
-        if (list[c].used || residual >= -1e-9 ||
-            (found == most && residual >= residuals[found - 1])) {
-            continue;
-        }
-        int32_t place = found < most ? found++ : found - 1;
-        for (; place > 0 && residuals[place - 1] > residual; place--) {
-            residuals[place] = residuals[place - 1];
-            worst[place] = worst[place - 1];
-        }
-        residuals[place] = residual;
-        worst[place] = c;
-    }
-    for (int32_t i = 0; i < found; i++) {
-        candidate_t *row = &list[worst[i]];
-        row->used = 1;
-        memcpy(rows + NV * (count + i), row->pair->row, NV * sizeof(double));
-        h[count + i] = row->right;
-    }
-    return found;
-}
-
-/* Step of the dual network for the wish w; returns the number of rows used. */
-static int32_t project(planner_t *planner, const double *q, const pose_t *pose,
-                       const double *w, double radius, double *u)
-{
-    double rows[NV * ROW_MAX], h[ROW_MAX], lambda[ROW_MAX] = {0}, z[NV] = {0};
-    double lower[NV], upper[NV];
-    candidate_t list[NEAR_MAX];
-    int32_t count = 0;
-    const int32_t size =
-        planner->set.project ? candidates(planner, pose, w, list) : 0;
-    k_box(q, planner->lower, planner->upper, &radius, lower, upper);
-    memcpy(u, w, NV * sizeof(double));
-    hildreth(NV, 0, rows, h, lower, upper, 1, lambda, z, u);
-    for (int32_t pass = 0; pass < planner->set.passes; pass++) {
-        const int32_t added = violated_rows(planner, u, list, size, rows, h, count);
-        if (added == 0) {
-            break;
-        }
-        count += added;
-        hildreth(NV, count, rows, h, lower, upper, planner->set.sweeps, lambda, z, u);
-    }
-    const double length = norm_of(u);
-    for (int32_t k = 0; k < NV && length > radius; k++) {
-        u[k] *= radius / length;
-    }
-    return count;
-}
-
 /* A certified step towards the wish, which is cut at the radius of the near
  * pairs and halved until the proof holds.
  * Returns the number of rows, or -1 when no step above min_step is proved. */
@@ -150,7 +52,7 @@ static int32_t certified_step(planner_t *planner, const double *q,
     *length = *length > sight ? sight : *length;
     for (;;) {
         const int32_t rows = project(planner, q, pose, w, *length, u);
-        if (world_certify(&planner->world, pose, u, sight, set->slack)) {
+        if (world_proved(&planner->world, u, sight, set->slack)) {
             return rows;
         }
         wish *= 0.5;

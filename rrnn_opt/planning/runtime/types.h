@@ -1,8 +1,9 @@
 /* Data of the planner's runtime.
  *
- * NV coordinates, NJ joints, NS spheres, NP sphere pairs and NG groups of
- * pairs are macros of the emitted section above, as are the tables t_* and
- * the functions k_* (frames, drives, distances, rows, bounds).
+ * NV coordinates, NJ joints, NS spheres in NB blocks of LANES, and the NQ
+ * blocks of sphere pairs in NG groups are macros of the emitted section above,
+ * as are the tables t_* and the functions k_* (frames, drives, distances,
+ * rows, bounds).
  */
 #include <stdint.h>
 #include <stdlib.h>
@@ -10,9 +11,11 @@
 #include <time.h>
 
 #define SHAPE 16
-#define NEAR_MAX 4096
+#define OPEN_MAX 4096    /* blocks within reach of a step, at most */
+#define NEAR_MAX 4096    /* pairs listed for a caller, at most */
 #define RADIUS_LEAST 1e-6 /* rad, no shorter look around is tried */
 #define ROW_MAX 32
+#define LEAST_NORM2 1e-12 /* shorter rows move nothing */
 #define PASS_MAX 8       /* rows added a pass, at most */
 
 typedef struct {
@@ -24,6 +27,7 @@ typedef struct {
     double node_gap;      /* rad between the nodes along a slide */
     double ik_step;       /* rad, largest step of the inverse kinematics */
     double ik_share;      /* share of the goal tolerance that it must reach */
+    double sweep_least;   /* rad, sweeps end when none moves u by more */
     double coin;          /* in [0, 1]: fair coin; negative: the memory cell */
     int32_t max_slide_steps;
     int32_t stall_window;
@@ -50,7 +54,7 @@ typedef struct {
 } tip_goal_t;
 
 typedef struct {
-    double axes[3 * NJ], origins[3 * NJ], centers[3 * NS];
+    double axes[3 * NJ], origins[3 * NJ], centers[3 * NSP + LANES];
     double tip_position[3], tip_rotation[9];
 } pose_t;
 
@@ -58,12 +62,22 @@ typedef struct {
     int32_t sphere;       /* sphere that moves away along n */
     int32_t other;        /* obstacle, or second sphere of a self pair */
     int32_t group;        /* -1: obstacle; else group of the self pair */
-    int32_t has_row;
     double gap;           /* m, promised margin already taken off */
     double n[3];
-    double row[NV];
-    double bound;         /* B at the wish, m */
 } near_t;
+
+/* LANES spheres against an obstacle, or LANES sphere pairs. */
+typedef struct {
+    int32_t other;        /* obstacle, or -1 */
+    int32_t group;        /* -1: obstacle; else group of the self pairs */
+    int32_t first;        /* first sphere, or block of pairs of the tables */
+    uint32_t used;        /* lanes whose rows the programme holds */
+    double gap[LANES];    /* m, promised margin already taken off */
+    double n[3 * LANES];
+    double drift[LANES];  /* n' J u, m */
+    double bound[LANES];  /* B(u), m */
+    double right[LANES];  /* right-hand side of the row, m */
+} block_t;
 
 typedef struct {
     int32_t count;        /* solids; see broad.c for the tree over them */
@@ -73,11 +87,18 @@ typedef struct {
     uint32_t *stamp, epoch;
     int32_t shortened;    /* keys are those of a shorter radius */
     double margin;        /* m, promised clearance from obstacles */
-    double *key;          /* a solid is out of reach while key > way */
-    double group_key[NG + 1];
-    double way;           /* m, longest way of a sphere since the last reset */
-    near_t near[NEAR_MAX];
-    int32_t near_count;
+    double *key;          /* NB of a solid: out of reach while key > way */
+    double *node_key;     /* the same of a node, against `farthest` */
+    double pair_key[NQ + 1];
+    double way[NB];       /* m, longest way in a block since the last reset */
+    double farthest;      /* m, no block's is longer */
+    double seen[3 * NSP]; /* centres when `way` was brought up to date */
+    int32_t placed;       /* 0: not since the last reset */
+    double group_way[NGP + 1]; /* m, by which pairs of a group came nearer */
+    block_t open[OPEN_MAX];
+    int32_t open_count;
+    double motion[4 * NSP];   /* J u and B(u) of the spheres, block by block */
+    uint32_t moved[NB], measure; /* blocks whose motion is that of the measure */
 } world_t;
 
 typedef struct {
