@@ -258,7 +258,7 @@ def emitted(robot: Robot, cell: MemoryCell) -> str:
     named = [(f, f.name()) for f in lanes]
     named += [(distance_function(kind), f"k_distance_{kind}") for kind in PRIMITIVES]
     named += [(gap_function(kind), f"k_gap_{kind}") for kind in PRIMITIVES]
-    texts = [emit.c_function(f, f.name()) for f in functions]
+    texts = [emit.c_function(f, f.name(), compact=True) for f in functions]
     texts += [emit.c_function(f, name, inline=True) for f, name in named]
     loops = dispatch(tuple(PRIMITIVES), robot.tree.nj)
     return "\n".join([tables(robot), *texts, loops])
