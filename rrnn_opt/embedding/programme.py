@@ -5,16 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
-import numpy as np
-from numpy.typing import NDArray
 
 from rrnn_opt.dynamics import Dynamics
+from rrnn_opt.emit.active_set import FIELDS, Factor
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.symbolic import Tape, shape_of
-
-FIELDS = ("q", "A", "b", "G", "h", "lb", "ub")
-PROXIMAL = 1e-4
-"""Added to the Hessian, relative to its largest entry, when it is singular."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,16 +19,14 @@ class Programme:
     Attributes:
         tape: parameters to q, A, b, G, h, lb, ub.
         sizes: unknowns, equality rows, inequality rows.
-        factor: J with J J' = (P + proximal I)^-1, (n, n).
-        proximal: 0 for a definite Hessian.
+        factor: of the Hessian.
         restart: whether the network's state is (u, lambda, mu), and is put at
             the solution.
     """
 
     tape: Tape
     sizes: tuple[int, int, int]
-    factor: NDArray[np.float64]
-    proximal: float
+    factor: Factor
     restart: bool
 
 
@@ -61,26 +54,8 @@ def programme(dynamics: Dynamics) -> Programme | None:
         [s.name for s in form.parameters],
         [f"qp_{name}" for name in FIELDS],
     )
-    factor, proximal = _factor(qp.hessian)
     n, p, m = form.decision.size, int(A.size1()), int(qp.G.size1())
-    return Programme(Tape.of(function), (n, p, m), factor, proximal, restart)
-
-
-def inverse_factor(hessian: NDArray[np.float64]) -> NDArray[np.float64]:
-    """J with J J' = P^-1, upper triangular.
-
-    Args:
-        hessian: P, positive definite.
-    """
-    lower = np.linalg.cholesky(hessian)
-    return np.ascontiguousarray(np.linalg.inv(lower).T)
-
-
-def _factor(hessian: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
-    scale = max(float(np.abs(hessian).max(initial=0.0)), 1e-3)
-    least = float(np.linalg.eigvalsh(hessian)[0])
-    proximal = 0.0 if least > PROXIMAL * scale else PROXIMAL * scale
-    return inverse_factor(hessian + proximal * np.eye(len(hessian))), proximal
+    return Programme(Tape.of(function), (n, p, m), Factor.of(qp.hessian), restart)
 
 
 def _in_multipliers(dynamics: Dynamics, form: Formulation) -> bool:

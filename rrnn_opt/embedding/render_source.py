@@ -10,17 +10,11 @@ from rrnn_opt.embedding.programme import Programme
 from rrnn_opt.embedding.render import declaration, pointer, template
 from rrnn_opt.embedding.split import split
 from rrnn_opt.emit import c_function, prologue
+from rrnn_opt.emit.active_set import FIELDS, active_set_source
 from rrnn_opt.emit.c99 import literal
-from rrnn_opt.emit.prologue import support_text
 from rrnn_opt.symbolic.tape import Tape
 
 _LARGEST = {"double": "DBL_MAX", "float": "FLT_MAX"}
-_SOLVER_NUMBERS = {
-    "double": {"DEPENDENT": 1e-20, "REDUNDANT": 1e-9, "FEASIBLE": 1e-12, "STILL": 1e-9},
-    "float": {"DEPENDENT": 1e-10, "REDUNDANT": 1e-4, "FEASIBLE": 1e-6, "STILL": 1e-5},
-}
-"""Of ``active_set.h``: square of the sine below which a normal counts as
-dependent; lack of a redundant row; violation that counts as none."""
 
 
 def header(
@@ -58,34 +52,13 @@ def mathematics(options: Options) -> str:
 def solver(programme: Programme, options: Options) -> str:
     """src/<prefix>_qp.h: the exact solver, in the programme's sizes."""
     guard = f"{options.prefix.upper()}_QP_H"
+    proximal = programme.factor.proximal
+    text = active_set_source(programme.sizes, proximal, options.real)
     return (
         f"/* {options.prefix}: exact solver; included by {options.prefix}.c alone. */\n"
         f"#ifndef {guard}\n#define {guard}\n\n"
-        f"{solver_text(programme.sizes, programme.proximal, options.real)}\n#endif\n"
+        f"{text}\n#endif\n"
     )
-
-
-def solver_text(sizes: tuple[int, int, int], proximal: float, real: str) -> str:
-    """``active_set.h`` behind the macros that it needs.
-
-    Args:
-        sizes: unknowns, equality rows, inequality rows.
-        proximal: 0 for a definite Hessian; else what was added to it.
-        real: "float" or "double".
-    """
-    lines = [
-        f"#define RRNN_QP_{name} {size}U"
-        for name, size in zip("NPM", sizes, strict=True)
-    ]
-    lines += [
-        f"#define RRNN_QP_{name} RRNN_C({number!r})"
-        for name, number in _SOLVER_NUMBERS[real].items()
-    ]
-    names = ["active_set.h"]
-    if proximal > 0.0:
-        lines.append(f"#define RRNN_QP_PROXIMAL RRNN_C({proximal!r})")
-        names.append("proximal.h")
-    return "\n".join([*lines, "", *(support_text(name) for name in names)])
 
 
 def source(
@@ -266,9 +239,11 @@ def _fallback(
     n, p, m = programme.sizes
     call = _programme_arguments(kernel, programme.tape)
     solve = "solve(&qp, inverse_factor, &answer)"
-    if programme.proximal > 0.0:
+    if programme.factor.proximal > 0.0:
         solve = "solve_proximal(&qp, inverse_factor, &answer)"
-    factor = [literal(x, options.real) for x in np.ravel(programme.factor).tolist()]
+    factor = [
+        literal(x, options.real) for x in np.ravel(programme.factor.inverse).tolist()
+    ]
     return template(
         "fallback.c",
         words
@@ -287,7 +262,7 @@ def _fallback(
 def _programme_arguments(kernel: Kernel, tape: Tape) -> list[str]:
     wanted = len(tape.inputs)
     given = [pointer("in->", f) for f in kernel.inputs[:wanted]]
-    return given + [f"qp.{name}" for name in ("q", "A", "b", "G", "h", "lb", "ub")]
+    return given + [f"qp.{name}" for name in FIELDS]
 
 
 def _restart(n: int, p: int, m: int) -> str:

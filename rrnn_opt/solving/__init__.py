@@ -1,5 +1,6 @@
 """Solvers of QPs and settled networks alike, every answer judged by us."""
 
+from rrnn_opt.solving.active_set import ActiveSet
 from rrnn_opt.solving.backends import TIGHT, Qpsolvers
 from rrnn_opt.solving.compare import Comparison, Tolerances, compare
 from rrnn_opt.solving.infeasible import Farkas, farkas_margin, find_farkas
@@ -14,6 +15,7 @@ from rrnn_opt.solving.stream import Stream, record_stream
 
 __all__ = [
     "TIGHT",
+    "ActiveSet",
     "Comparison",
     "DaqpSession",
     "Duals",
