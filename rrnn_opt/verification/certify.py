@@ -130,6 +130,9 @@ def _answers(
         try:
             for document in engine.propose(claim, budget_s=share, seed=seed):
                 yield engine.name, check_certificate(inhabited.completed(document))
+        except _EmptyError as error:
+            yield "hypotheses", str(error)
+            return
         except UndecidedError as error:
             yield engine.name, error.reason
         except UnsupportedOperationError as error:
@@ -141,11 +144,23 @@ class _Inhabited:
 
     def __init__(self, claim: Any, witnesses: Sequence[Witness], seed: int) -> None:
         self._search = (claim, witnesses, seed)
-        self._known: list[Any] = []
+        self._known: dict[str, list[str]] | None = None
 
     def completed(self, document: dict[str, Any]) -> dict[str, Any]:
+        """The document with a witness.
+
+        Raises:
+            _EmptyError: there is none, so that nothing can be settled.
+        """
         if document["witness"] is not None or "tape" not in document["claim"]:
             return document
-        if not self._known:
-            self._known.append(inhabitant(*self._search))
-        return document | {"witness": self._known[0]}
+        if self._known is None:
+            try:
+                self._known = inhabitant(*self._search)
+            except UndecidedError as error:
+                raise _EmptyError(error.reason) from error
+        return document | {"witness": self._known}
+
+
+class _EmptyError(Exception):
+    """No point keeps the hypotheses, as far as is known."""

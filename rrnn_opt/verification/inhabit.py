@@ -11,25 +11,32 @@ from rrnn_opt.check.claim_document import ClaimGraph, read_claim
 from rrnn_opt.check.claim_replay import require_admitted
 from rrnn_opt.claim import Claim
 from rrnn_opt.errors import UndecidedError
+from rrnn_opt.verification import smt
 from rrnn_opt.verification.document import Witness, claim_block, exact_point
 from rrnn_opt.verification.falsify import keepers
+from rrnn_opt.verification.smt_text import smt_text
 
 Exact = dict[str, list[str]]
+SOLVER_S = 5.0
+"""Wall time of z3 for a point that sampling did not find, s."""
 
 
-def inhabitant(claim: Claim, witnesses: Sequence[Witness], seed: int) -> Exact | None:
-    """A point that is certain to keep domain and hypotheses, or None.
+def inhabitant(claim: Claim, witnesses: Sequence[Witness], seed: int) -> Exact:
+    """A point that is certain to keep domain and hypotheses.
 
     Args:
         claim: the claim.
         witnesses: points to try first.
         seed: of the search.
+
+    Raises:
+        UndecidedError: none was found; the hypotheses may contradict each other.
     """
     graph = read_claim(claim_block(claim))
     for point in _candidates(claim, witnesses, seed):
         if _keeps(graph, point):
             return point
-    return None
+    raise UndecidedError("no point was found that keeps the hypotheses")
 
 
 def _candidates(
@@ -39,6 +46,14 @@ def _candidates(
         yield exact_point(given)
     for found in keepers(claim, seed=seed):
         yield exact_point(found)
+    query = smt_text(claim)
+    query.negations = ["true"]  # whatever becomes of the goal
+    answer = smt.ask(query, "z3", SOLVER_S)
+    if answer.status == "unsat":
+        raise UndecidedError("the hypotheses contradict each other, says z3")
+    if answer.status == "sat":
+        for modelled in smt.candidates(claim, query, answer.model):
+            yield exact_point(modelled)
 
 
 def _keeps(graph: ClaimGraph, point: Exact) -> bool:
