@@ -13,7 +13,8 @@ A certificate is a JSON document::
      "method": "identity" | "terms" | "replay" | ..,
      "payload": what the method needs, or null,
      "witness": {variable: ["p/q", ...]} or null,
-     "status", "trust", "assumptions", "versions"}   what the finder says
+     "status", "trust", "assumptions", "versions",   what the finder says
+     "digest"}                         SHA-256 of all but versions and itself
 
 The verdict is found again here from the claim and the payload alone, by the
 module ``claim_<method>`` of this room.  The witness of a refutation breaks the
@@ -24,6 +25,7 @@ the proof no assumptions.
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import InitVar, dataclass
@@ -103,7 +105,8 @@ class CheckedCertificate:
             "assumptions": list(self.assumptions),
             "versions": versions(),
         }
-        return self.document | answer
+        whole = self.document | answer
+        return whole | {"digest": digest(whole)}
 
     @property
     def fingerprint(self) -> str:
@@ -164,6 +167,9 @@ def check_certificate(document: Mapping[str, Any]) -> CheckedCertificate:
         raise DocumentError(WHERE, f"{what} is unknown")
     read, methods = FORMS[form]
     graph = read(block)
+    if data.get("digest", whole := digest(data)) != whole:
+        reason = "the document was altered after it was made"
+        return CheckedCertificate(UNKNOWN, reason, text, seal=_SEAL)
     if graph.fingerprint != stated:
         reason = "the tape is not that of the claim which the fingerprint names"
         return CheckedCertificate(UNKNOWN, reason, text, seal=_SEAL)
@@ -191,6 +197,15 @@ def _settled(
     elif len(graph.senses) > 1 or assumptions:
         raise UndecidedError("no witness shows that the hypotheses can be kept")
     return (HOLDS_UNDER if assumptions else PROVED), assumptions
+
+
+def digest(document: Mapping[str, Any]) -> str:
+    """SHA-256 of a document, but for "digest" and "versions".
+
+    It tells an altered copy from the original; it proves nothing by itself.
+    """
+    parts = {k: v for k, v in document.items() if k not in ("digest", "versions")}
+    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
 
 
 def versions() -> dict[str, str]:
