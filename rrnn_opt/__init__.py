@@ -31,6 +31,8 @@ _HOME = {
     "compare": "rrnn_opt.solving",
     "simulate": "rrnn_opt.simulation",
     "certify": "rrnn_opt.verification",
+    "certify_region": "rrnn_opt.verification",
+    "Region": "rrnn_opt.verification",
     "generate": "rrnn_opt.embedding",
 }
 _ROOMS = (

@@ -14,8 +14,9 @@ from rrnn_opt.emit.prologue import support_text
 from rrnn_opt.errors import UnsupportedOperationError
 from rrnn_opt.symbolic.tape import Instruction, Tape
 
-FLAGS = ("-std=gnu99", "-frounding-math", "-fno-trapping-math", "-Wno-psabi")
-"""For the compiler: vector types, and no arithmetic behind the rounding mode's back."""
+FLAGS = ("-std=gnu99", "-O1", "-frounding-math", "-fno-trapping-math", "-Wno-psabi")
+"""For the compiler: vector types, no arithmetic behind the rounding mode's back, and
+-O1, since long straight lines take a compiler ten times as long at -O2."""
 
 UNARY = ("neg", "sq", "twice", "inv", "sqrt", "fabs", "sign", "not")
 ARITHMETIC = ("add", "sub", "mul", "div", "fmin", "fmax")

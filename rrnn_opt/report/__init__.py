@@ -8,12 +8,14 @@ from rrnn_opt.report.files import write_bytes, write_text
 from rrnn_opt.report.page import write_page
 from rrnn_opt.report.picture import draw_plan
 from rrnn_opt.report.plan_files import write_plan
+from rrnn_opt.report.region_map import draw_region
 from rrnn_opt.report.tables import check_line, table
 from rrnn_opt.report.tracking import draw_tracking
 
 __all__ = [
     "check_line",
     "draw_plan",
+    "draw_region",
     "draw_tracking",
     "table",
     "write_bytes",
