@@ -45,7 +45,7 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
         help="Euler step, s (default: 0.95 of the longest that is known to be safe)",
     )
     add(
-        "--tolerance", type=float, default=0.05, help="KKT residual before the fallback"
+        "--tolerance", type=float, default=0.01, help="KKT residual before the fallback"
     )
     add("--no-fallback", action="store_true", help="leave the exact solver out")
     add("--no-whitening", action="store_true", help="leave the task's rows as they are")

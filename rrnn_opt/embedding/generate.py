@@ -79,7 +79,7 @@ def generate(
     longest = None
     if network is not None and form is not None:
         longest = longest_step(network, form, row_norm)
-    wanted.require_step_below(longest)
+    wanted = wanted.below(longest)
     vectors = reference_vectors(core, wanted)
     parts = _Parts(
         core=core,

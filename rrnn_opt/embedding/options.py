@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, Literal, get_args
 
 from rrnn_opt.embedding.words import require_prefix
@@ -30,6 +30,8 @@ class Options:
             the model within a bound, not bit for bit.
         trig: "own" sine and cosine, or those of the C library ("libm").
         target: machine that the build files are for.
+        test_step: h, s, that the package is tested with where no step size is
+            given; half of the longest safe one where that is shorter.
 
     Raises:
         RrnnError: one of them cannot be used.
@@ -39,11 +41,12 @@ class Options:
     real: Real = "float"
     steps: int = 1
     step_size: float | None = None
-    tolerance: float = 0.05
+    tolerance: float = 0.01
     fallback: bool = True
     fused: bool = False
     trig: Trig = "own"
     target: Target = "host"
+    test_step: float = 0.001
 
     def __post_init__(self) -> None:
         require_real(self.real)
@@ -62,8 +65,8 @@ class Options:
         """Whether the package computes in single precision."""
         return self.real == "float"
 
-    def require_step_below(self, longest: float | None) -> None:
-        """Refuse a step size that the package itself would refuse.
+    def below(self, longest: float | None) -> Options:
+        """These options with no step size that the package itself would refuse.
 
         Args:
             longest: Euler step, s, up to which a bound is known; None without.
@@ -76,6 +79,9 @@ class Options:
                 f"step size {self.step_size}: no step beyond {longest:.6g} s is known"
                 " to be safe; choose a shorter one"
             )
+        if longest is None:
+            return self
+        return replace(self, test_step=min(self.test_step, longest / 2.0))
 
     @property
     def exact(self) -> bool:

@@ -16,7 +16,6 @@ from rrnn_opt.symbolic.interpreter import evaluate
 Array = NDArray[np.float64]
 SELFTEST_CASES = 4
 HOST_CASES = 24
-STEP_SIZE = 0.001
 LEAST = {False: 1e-12, True: 1e-4}
 """Least tolerance of the package's test in double and in single precision."""
 _TRIALS = 4000
@@ -47,7 +46,7 @@ class Vector:
 
 def step_of(options: Options) -> float:
     """Step size that a package is tested with, s, as a number of its type."""
-    step = STEP_SIZE if options.step_size is None else options.step_size
+    step = options.test_step if options.step_size is None else options.step_size
     return float(np.float32(step)) if options.single else step
 
 

@@ -1,4 +1,5 @@
 import ctypes
+import importlib.util
 import subprocess
 from pathlib import Path
 
@@ -50,13 +51,37 @@ def cc(tmp_path):
 
 
 @pytest.fixture
-def shared(cc):
-    """A package as a shared object."""
+def library(cc):
+    """Where a package's shared object is."""
 
     def build(folder, *flags):
         sources = sorted((folder / "src").glob("*.c"))
-        name = f"{folder.name}.so"
         call = ["-shared", "-fPIC", *flags]
-        return ctypes.CDLL(str(cc(sources, name, *call, includes=[folder / "include"])))
+        name = f"{folder.name}.so"
+        return cc(sources, name, *call, includes=[folder / "include"])
+
+    return build
+
+
+@pytest.fixture
+def shared(library):
+    """A package as a loaded shared object."""
+    return lambda folder, *flags: ctypes.CDLL(str(library(folder, *flags)))
+
+
+@pytest.fixture
+def controller(library):
+    """A package's own Python module, over its C compiled here."""
+
+    def build(package, folder, *flags, **settings):
+        written = package.write(folder)
+        place = library(written, *flags)
+        name = package.prefix
+        spec = importlib.util.spec_from_file_location(
+            f"{name}_wrapper", written / "python" / f"{name}.py"
+        )
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module, module.Controller(place, **settings)
 
     return build
