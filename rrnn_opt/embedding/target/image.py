@@ -43,6 +43,7 @@ def compile_objects(
     *,
     includes: Sequence[Path] = (),
     flags: Sequence[str] = (),
+    base: Sequence[str] = FLAGS,
 ) -> list[Path]:
     """Compile C files to objects.
 
@@ -51,7 +52,8 @@ def compile_objects(
         sources: C files, of different names.
         folder: where the objects go.
         includes: folders of headers.
-        flags: after ``FLAGS`` and those of the board.
+        flags: after those of the base and of the board.
+        base: of all files.
 
     Returns:
         The objects, in the order of the sources.
@@ -65,7 +67,7 @@ def compile_objects(
     for source in sources:
         objects.append(folder / f"{source.stem}.o")
         places = [f"-I{place}" for place in includes]
-        command = [COMPILER, *FLAGS, *board.flags, *flags, *places]
+        command = [COMPILER, *base, *board.flags, *flags, *places]
         _compile([*command, "-c", str(source), "-o", str(objects[-1])])
     return objects
 

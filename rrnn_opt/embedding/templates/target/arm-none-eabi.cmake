@@ -10,4 +10,6 @@ if(CPU STREQUAL "cortex-m7")
 else()
   set(cpu_flags "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16")
 endif()
-set(CMAKE_C_FLAGS_INIT "${cpu_flags} -mthumb -mfloat-abi=hard -ffunction-sections -fdata-sections")
+# The parameter takes conditional moves in place of branches: the number of
+# instructions of a step then does not depend on the data.
+set(CMAKE_C_FLAGS_INIT "${cpu_flags} -mthumb -mfloat-abi=hard -ffp-contract=off -fno-math-errno -ffunction-sections -fdata-sections --param=max-rtl-if-conversion-unpredictable-cost=100")
