@@ -33,9 +33,11 @@ from importlib import metadata
 from typing import Any, NoReturn, final
 
 from rrnn_opt.check import (
+    claim_composite,
     claim_identity,
     claim_interval,
     claim_lmi,
+    claim_point,
     claim_replay,
     claim_smt,
     claim_sos,
@@ -48,6 +50,7 @@ from rrnn_opt.check.claim_answer import (
     UNKNOWN,
     Answer,
 )
+from rrnn_opt.check.claim_composite import Part
 from rrnn_opt.check.claim_document import WHERE, ClaimGraph, read_claim
 from rrnn_opt.errors import DocumentError, RrnnError, UndecidedError
 
@@ -214,8 +217,21 @@ def versions() -> dict[str, str]:
 
 
 Judge = Callable[[Any, Any, Any], Answer]
+
+
+def _composite(graph: ClaimGraph, payload: Any, document: Any) -> Answer:
+    return claim_composite.judge(graph, payload, _part)
+
+
+def _part(document: Mapping[str, Any]) -> Part:
+    checked = check_certificate(document)
+    return checked.status, checked.reason, checked.assumptions, checked.trust
+
+
 METHODS: dict[str, Judge] = {
+    "composite": _composite,
     "identity": claim_identity.judge,
+    "point": claim_point.judge,
     "interval": claim_interval.judge,
     "terms": claim_terms.judge,
     "replay": claim_replay.judge,

@@ -137,7 +137,7 @@ class _Expansion:
     """The polynomial of every value so far, and the generators in use."""
 
     def __init__(self, graph: ClaimGraph, work: int) -> None:
-        count = sum(2 if s.op in ("sin", "cos") else 1 for s in graph.steps)
+        count = sum(_generators(s.op) for s in graph.steps)
         names = [f"g{k}" for k in range(count)]
         self.ring = fmpq_mpoly_ctx.get(names, Ordering.lex)
         self.free = list(reversed(range(count)))
@@ -247,6 +247,12 @@ class _Expansion:
         return self.atom(op, [a, b])
 
 
+def _generators(op: str) -> int:
+    """How many generators an operation can ask for."""
+    return 2 if op in ("sin", "cos") else int(op not in _RINGS)
+
+
+_RINGS = frozenset({"add", "sub", "neg", "twice", "mul", "sq", "const", "output"})
 _RULES: dict[str, Callable[..., Polynomial]] = {
     "add": lambda e, a, b: a + b,
     "sub": lambda e, a, b: a - b,

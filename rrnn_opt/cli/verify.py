@@ -1,10 +1,11 @@
-"""``rrnn verify``: verdicts about the paper's statements, or about your own."""
+"""``rrnn verify``: verdicts about the paper, a scheme on a robot, or your claims."""
 
 from __future__ import annotations
 
 import argparse
 import json
 import runpy
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +14,9 @@ from rrnn_opt.cli.arguments import seed
 from rrnn_opt.cli.folders import folder
 from rrnn_opt.cli.output import Output, UsageError
 
-HELP = "settle claims: PROVED, REFUTED with a witness, or UNKNOWN"
+HELP = "settle claims: PROVED, REFUTED with a witness, HOLDS_UNDER, or UNKNOWN"
 OPEN = ("REFUTED", "UNKNOWN")
+TITLE = "Statements of the paper, and what is true"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,58 +25,71 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "claim", nargs="*", help="an id such as C17, or a Python file with claims()"
     )
     parser.add_argument("--all", action="store_true", help="every claim of the paper")
+    parser.add_argument(
+        "--formulation", metavar="NAME", help="what is claimed of a scheme"
+    )
+    parser.add_argument("--network", default="PrimalDual", help="default %(default)s")
     parser.add_argument("--robot", default="pa10", help="default %(default)s")
     parser.add_argument("--seed", type=seed, default=0, help="default 0")
-    parser.add_argument("--out", metavar="DIR", help="write the certificates here")
+    parser.add_argument(
+        "--out", metavar="DIR", help="write certificates and a report here"
+    )
 
 
 def run(args: argparse.Namespace, out: Output) -> int:
     """0 when every verdict is the expected one, else 1."""
     target = folder(args.out) if args.out is not None else None
-    settled = [case.settle(seed=args.seed) for case in chosen(args)]
-    rows = [one.row(certificate=_write(one, target)) for one in settled]
-    out.document({"claims": rows, "evidence": []})
-    for one, row in zip(settled, rows, strict=True):
-        word = "PASS" if one.as_expected else "FAIL"
-        out.say(
-            f"{word}  {row['id']} {row['verdict']} ({row['engine']}): {row['reason']}"
-        )
-        out.say(f"      {row['statement']}")
-        if row["mutation"]:
-            out.say(f"      mutation: {row['mutation']}")
-    return 0 if all(one.as_expected for one in settled) else 1
+    printed, others = chosen(args)
+    rows: list[dict[str, Any]] = []
+    missed: list[str] = []
+    for entry in (*printed, *others):
+        row, caught = _row(entry, target, args.seed)
+        rows.append(row)
+        out.note(f"{row['id']} {row['verdict']} ({row['time_s']:.1f} s)")
+        missed += [] if caught else [f"{row['id']}: its mutation was not caught"]
+    missed += _surprises(rows[: len(printed)]) + _open(rows[len(printed) :])
+    evidence = [e.to_dict() for x in (*printed, *others) for e in _evidence(x)]
+    document = {"claims": rows, "evidence": evidence}
+    if target is not None:
+        _report(document, target, args)
+    out.document(document)
+    _say(document, missed, out)
+    return 1 if missed else 0
 
 
-def chosen(args: argparse.Namespace) -> list[Any]:
-    """The cases that the command line names.
+def chosen(args: argparse.Namespace) -> tuple[list[Any], list[Any]]:
+    """Entries of the paper, and others, that the command line names.
 
     Raises:
         UsageError: nothing or something unknown is named.
     """
     files = [name for name in args.claim if name.endswith(".py")]
     ids = [name.replace("'", "p") for name in args.claim if name not in files]
-    if not args.claim and not args.all:
-        raise UsageError("name a claim, a Python file with claims(), or --all")
-    cases = _printed(args.robot, ids, everything=args.all) if ids or args.all else []
-    for name in files:
-        cases += _own(name)
-    return cases
+    if not (args.claim or args.all or args.formulation):
+        raise UsageError(
+            "name a claim, a Python file with claims(), --formulation, or --all"
+        )
+    printed = _printed(args.robot, ids, everything=args.all) if ids or args.all else []
+    others = [case for name in files for case in _own(name)]
+    if args.formulation:
+        others += _scheme(args)
+    return printed, others
 
 
 def _printed(robot: str, ids: list[str], *, everything: bool) -> list[Any]:
     from rrnn_opt.robot import Kinematics
-    from rrnn_opt.validation.claims import claims
+    from rrnn_opt.validation.claims import IDS, claims
 
-    cases = {case.claim.id: case for case in claims(Kinematics(named.robot(robot)))}
     for name in ids:
-        if name not in cases:
-            raise UsageError(named.unknown("claim", name, cases))
-    return list(cases.values()) if everything else [cases[name] for name in ids]
+        if name not in IDS:
+            raise UsageError(named.unknown("claim", name, IDS))
+    wanted = None if everything else ids
+    return list(claims(Kinematics(named.robot(robot)), wanted))
 
 
 def _own(path: str) -> list[Any]:
-    """The claims of a user's file; each is expected to be settled and to hold."""
-    from rrnn_opt.verification import ClaimCase, Status
+    """The claims of a user's file."""
+    from rrnn_opt.verification import ClaimCase, Remark
 
     try:
         found = runpy.run_path(path)["claims"]()
@@ -82,18 +97,83 @@ def _own(path: str) -> list[Any]:
         raise UsageError(f"{path} defines no function claims()") from None
     except OSError as error:
         raise UsageError(f"{path}: cannot be read ({error.strerror})") from error
-    return [
-        claim if isinstance(claim, ClaimCase) else ClaimCase(claim, Status.PROVED)
-        for claim in found
-    ]
+    return [x if isinstance(x, ClaimCase | Remark) else ClaimCase(x) for x in found]
 
 
-def _write(settled: Any, target: Path | None) -> str | None:
-    """Write the claim's certificate, if there is one; its path."""
-    certificate = settled.verdict.certificate
-    if target is None or certificate is None:
-        return None
+def _scheme(args: argparse.Namespace) -> list[Any]:
+    """What is claimed of a formulation and its network on a robot."""
+    from rrnn_opt.robot import Kinematics
+    from rrnn_opt.verification.catalogue import claims
+
+    kinematics = Kinematics(named.robot(args.robot))
+    form = named.scheme(args.formulation)(kinematics)
+    found: list[Any] = claims(form, named.network(args.network), kinematics)
+    return found
+
+
+def _row(entry: Any, target: Path | None, number: int) -> tuple[dict[str, Any], bool]:
+    """The row of an entry, and whether its mutation was caught."""
+    if not hasattr(entry, "settle"):
+        return entry.row(), True
+    settled = entry.settle(seed=number)
+    return settled.row(
+        place=None if target is None else _writer(target)
+    ), settled.caught
+
+
+def _writer(target: Path) -> Any:
     from rrnn_opt.report import write_text
 
-    text = json.dumps(certificate, indent=1, allow_nan=False) + "\n"
-    return str(write_text(target / f"{settled.case.claim.id}.json", text))
+    def write(name: str, certificate: Mapping[str, Any]) -> str:
+        text = json.dumps(certificate, indent=1, allow_nan=False) + "\n"
+        return str(write_text(target / f"{name}.json", text))
+
+    return write
+
+
+def _surprises(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Rows of the paper that did not come out as expected; read last of all."""
+    if not rows:
+        return []
+    from rrnn_opt.validation.claims.expected import surprises
+
+    return [f"{name}: expected {word}" for name, word in surprises(rows).items()]
+
+
+def _open(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    return [f"{r['id']}: {r['verdict']}" for r in rows if r["verdict"] in OPEN]
+
+
+def _evidence(entry: Any) -> Sequence[Any]:
+    return tuple(getattr(entry, "evidence", ()))
+
+
+def _report(
+    document: Mapping[str, Any], target: Path, args: argparse.Namespace
+) -> None:
+    from rrnn_opt.report import claims_html, claims_markdown, write_text
+
+    words = [*args.claim, *(["--all"] if args.all else [])]
+    if args.formulation:
+        words += ["--formulation", args.formulation, "--network", args.network]
+    command = " ".join(["rrnn verify", *words, "--robot", args.robot, "--out", "DIR"])
+    title = TITLE if args.all else "Claims"
+    about = {"title": title, "command": command}
+    write_text(target / "claims.json", json.dumps(document, indent=1) + "\n")
+    write_text(target / "claims.md", claims_markdown(document, **about))
+    write_text(target / "claims.html", claims_html(document, **about))
+
+
+def _say(document: Mapping[str, Any], missed: Sequence[str], out: Output) -> None:
+    from rrnn_opt.report import claims_table
+
+    rows = document["claims"]
+    out.say(claims_table(rows))
+    if len(rows) <= 3:
+        for row in rows:
+            out.say(f"{row['id']}: {row['statement']}")
+            out.say(f"    {row['reason']}")
+            if row["mutation"]:
+                out.say(f"    mutation: {row['mutation']}")
+    for line in missed:
+        out.say(f"FAIL  {line}")

@@ -24,6 +24,7 @@ from rrnn_opt.solving import (
     record_stream,
 )
 from rrnn_opt.validation.claims import c17, c18
+from rrnn_opt.validation.claims.expected import surprises
 
 SHIFT_M = 0.02
 
@@ -37,9 +38,12 @@ def check_claims(law: Law) -> list[Check]:
     ):
         settled = case.settle()
         note = "" if settled.mutant is None else f"mutation {settled.mutant.status}"
-        found = str(settled.verdict.status)
-        checks.append(verdict(name, found, str(case.expected), note))
-        if settled.mutant is not None and not settled.as_expected:
+        row = settled.row()
+        found = row["verdict"]
+        checks.append(
+            verdict(name, found, surprises([row]).get(row["id"], found), note)
+        )
+        if not settled.caught:
             checks.append(Check(f"{name}: mutation", False, note, "another verdict"))
     return checks
 

@@ -4,6 +4,7 @@ Everything here reads documents (the JSON of a result) and draws them; nothing
 is computed that a verdict could rest on.
 """
 
+from rrnn_opt.report.claims import claims_html, claims_markdown, claims_table
 from rrnn_opt.report.files import write_bytes, write_text
 from rrnn_opt.report.page import write_page
 from rrnn_opt.report.picture import draw_plan
@@ -14,6 +15,9 @@ from rrnn_opt.report.tracking import draw_tracking
 
 __all__ = [
     "check_line",
+    "claims_html",
+    "claims_markdown",
+    "claims_table",
     "draw_plan",
     "draw_region",
     "draw_tracking",

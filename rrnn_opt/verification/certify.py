@@ -21,6 +21,7 @@ from rrnn_opt.verification.verdict import Verdict
 ENGINES: tuple[Engine, ...] = (
     Engine("identity", normal.propose_identity),
     Engine("terms", normal.propose_terms),
+    Engine("point", normal.propose_point),
     Engine("falsifier", falsify.propose),
     Engine("products", products.propose),
     Engine("smt", smt.propose),

@@ -56,9 +56,9 @@ def claim_block(claim: Claim) -> dict[str, Any]:
         "fingerprint": claim.fingerprint,
         "order": claim.order,
         "jacobian": claim.jacobian,
-        "inputs": [_port(port) for port in tape.inputs],
-        "outputs": [_port(port) for port in tape.outputs],
-        "tape": [_step(step) for step in tape.instructions],
+        "inputs": [port_row(port) for port in tape.inputs],
+        "outputs": [port_row(port) for port in tape.outputs],
+        "tape": [step_row(step) for step in tape.instructions],
         "senses": [relation.sense for relation in claim.relations],
         "hypotheses": [
             [h.id, h.statement, h.relation is None, h.added] for h in claim.hypotheses
@@ -79,11 +79,13 @@ def exact_point(point: Witness) -> dict[str, list[str]]:
         raise RrnnError("witness: every number must be finite") from error
 
 
-def _port(port: Port) -> list[Any]:
+def port_row(port: Port) -> list[Any]:
+    """A variable or a result as plain data."""
     return [port.name, list(port.shape)]
 
 
-def _step(step: Instruction) -> list[Any]:
+def step_row(step: Instruction) -> list[Any]:
+    """One operation as plain data."""
     const = None if step.const is None else step.const.hex()
     slot = None if step.slot is None else list(step.slot)
     return [step.op, step.out, list(step.args), const, slot]

@@ -7,7 +7,6 @@ from enum import StrEnum
 from typing import Any, Literal, final
 
 from rrnn_opt.check.claim_certificate import CheckedCertificate
-from rrnn_opt.claim import Claim
 from rrnn_opt.errors import RrnnError
 
 
@@ -117,21 +116,3 @@ class Evidence:
             "interval": list(self.interval),
             "seed": self.seed,
         }
-
-
-@dataclass(frozen=True)
-class Mutation:
-    """A broken (or mended) variant of a claim, and what it must not become.
-
-    A machine that proves a statement must fail on a false variant; one that
-    refutes a statement must fail on a true variant.
-
-    Attributes:
-        text: what was changed.
-        claim: the variant.
-        never: the status that it must not get.
-    """
-
-    text: str
-    claim: Claim
-    never: Status

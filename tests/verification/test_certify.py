@@ -131,10 +131,11 @@ def test_the_search_is_seeded():
 
 def test_rows_have_the_agreed_form():
     stated = claim(x**2, ">=0", order="first-order", jacobian="moving")
-    mutation = Mutation("sign flipped", claim(-(x**2), ">=0"), Status.PROVED)
-    settled = ClaimCase(stated, Status.PROVED, mutation).settle()
-    assert settled.as_expected
-    row = settled.row(certificate="c.json")
+    mutation = Mutation("sign flipped", claim(-(x**2), ">=0"))
+    settled = ClaimCase(stated, mutation).settle()
+    assert settled.caught
+    row = settled.row(place=lambda name, certificate: f"{name}.json")
+    assert row["certificate"] == "T.json"
     assert row["mutation"] == "sign flipped: REFUTED"
     assert row["verdict"] == "PROVED"
     assert (row["id"], row["dynamics"], row["jacobian"]) == (
@@ -150,9 +151,11 @@ def test_rows_have_the_agreed_form():
 
 
 def test_a_mutation_that_slips_through_is_seen():
-    slip = Mutation("nothing changed", claim(x**2, ">=0"), Status.PROVED)
-    assert not ClaimCase(claim(x**2, ">=0"), Status.PROVED, slip).settle().as_expected
-    assert not ClaimCase(claim(x), Status.PROVED).settle().as_expected
+    true, false = claim(x**2, ">=0"), claim(-(x**2), ">=0")
+    assert not ClaimCase(true, Mutation("nothing changed", true)).settle().caught
+    assert not ClaimCase(false, Mutation("none", false, holds=True)).settle().caught
+    assert ClaimCase(false, Mutation("mended", true, holds=True)).settle().caught
+    assert ClaimCase(true).settle().caught
 
 
 coefficients = st.lists(st.integers(-3, 3), min_size=4, max_size=4)

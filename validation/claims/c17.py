@@ -13,8 +13,9 @@ from rrnn_opt.lyapunov import LyapunovFunction
 from rrnn_opt.networks import PrimalDual
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.symbolic import Symbol
-from rrnn_opt.verification import ClaimCase, Mutation, Status
+from rrnn_opt.verification import ClaimCase, Mutation, Proof, Repair
 from rrnn_opt.verification.document import Witness
+from rrnn_opt.verification.vocabulary import added, joint_ranges
 
 EPSILON = 0.01
 
@@ -57,20 +58,42 @@ def case(kinematics: Kinematics) -> ClaimCase:
             ("V' = -e'J u along (17)", Relation(truth, "==0")),
         )
     )
-    mutation = Mutation("V' <= 0 replaced by V' = -e'J u", variant, Status.REFUTED)
-    return ClaimCase(claim, Status.REFUTED, mutation, (_witness(kinematics),))
+    mutation = Mutation("V' <= 0 replaced by V' = -e'J u", variant, holds=True)
+    witnesses = (_witness(kinematics),)
+    return ClaimCase(claim, mutation, witnesses, Repair(_kinetic()))
+
+
+def _kinetic() -> Proof:
+    """V3' = -gain |J u|^2 for V3 = |J u|^2/2 + sum of the integrals of P_i.
+
+    The integral of P from 0 to x is x P(x) - P(x)^2/2, whose slope is P(x); the
+    argument is x = gain J'e, and e' = -J u for a target at rest.
+    """
+    n, m = 7, 3
+    J, u = Symbol.matrix("J", (m, n), "m/rad"), Symbol.vector("u", n, "rad/s")
+    e, gain = Symbol.vector("e", m, "m"), Symbol.scalar("gain", "1/s", "1/epsilon")
+    P, x_rate = Symbol.vector("P", n, "rad/s", "P(x)"), -gain.sx * J.sx.T @ J.sx @ u.sx
+    Ju = J.sx @ u.sx
+    u_rate = gain.sx * (P.sx - u.sx)
+    rate = ca.dot(Ju, J.sx @ u_rate) + ca.dot(P.sx, x_rate)
+    claim = Claim(
+        id="C17",
+        source="eq. (17)",
+        statement="V3 = |J u|^2/2 + sum of integrals of P_i decreases along (17) for "
+        "frozen J: V3' = -|J u|^2/epsilon",
+        variables=(J, u, e, gain, P),
+        goal=Relation(rate + gain.sx * ca.dot(Ju, Ju), "==0"),
+        hypotheses=(added("A1", "J and Omega stand still, the target too"),),
+        order="second-order",
+        jacobian="frozen",
+    )
+    rule = "the slope of x P(x) - P(x)^2/2 is P(x) (Danskin)"
+    return Proof(claim, (claim,), (), (rule,))
 
 
 def _limits(kinematics: Kinematics, u: Symbol, q: Symbol) -> tuple[Range, ...]:
-    limits = kinematics.robot.limits
-    return (
-        Range(u.name, _exact(-limits.velocity), _exact(limits.velocity)),
-        Range(q.name, _exact(limits.lower), _exact(limits.upper)),
-    )
-
-
-def _exact(bounds: np.ndarray) -> tuple[Fraction | None, ...]:
-    return tuple(Fraction(x) if np.isfinite(x) else None for x in bounds.tolist())
+    speed = tuple(Fraction(x) for x in kinematics.robot.limits.velocity.tolist())
+    return (Range(u.name, tuple(-x for x in speed), speed), joint_ranges(kinematics, q))
 
 
 def _witness(kinematics: Kinematics) -> Witness:

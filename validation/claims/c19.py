@@ -4,23 +4,33 @@ from __future__ import annotations
 
 import casadi as ca
 
-from rrnn_opt.claim import Claim, Hypothesis, Relation
-from rrnn_opt.symbolic import Box, Symbol
-from rrnn_opt.verification import ClaimCase, Mutation, Status
+from rrnn_opt.claim import Claim, Relation
+from rrnn_opt.robot import Kinematics
+from rrnn_opt.verification import (
+    ClaimCase,
+    Instance,
+    Mutation,
+    Proof,
+    Repair,
+    Square,
+)
+from rrnn_opt.verification.lemmas import clip, projection
+from rrnn_opt.verification.vocabulary import scalars, stated
 
 
-def case() -> ClaimCase:
+def case(kinematics: Kinematics) -> ClaimCase:
     """|P(x) - x|^2 <= |y - x| for y in Omega, on the line.
 
     One side is squared and the other is not.  With Omega = [2, 4], x = 0 and
-    y = 3 it says 4 <= 3.
+    y = 3 it says 4 <= 3.  With both sides squared it is true:
 
-    Returns:
-        The case; its mutation squares both sides, which is true.
+        (y - x)^2 - (P(x) - x)^2 = (y - P(x))^2 + 2 (x - P(x))(P(x) - y)
+
+    Args:
+        kinematics: not used.
     """
-    x, y = Symbol.scalar("x", "1", "point"), Symbol.scalar("y", "1", "in Omega")
-    low, high = Symbol.scalar("low"), Symbol.scalar("high")
-    squared = (Box(low.sx, high.sx).project(x.sx) - x.sx) ** 2
+    x, y, low, high = scalars("x y low high")
+    p = clip(x.sx, low.sx, high.sx)
     inside = ca.vertcat(y.sx - low.sx, high.sx - y.sx)
     printed, mended = (
         Claim(
@@ -28,14 +38,17 @@ def case() -> ClaimCase:
             source="eq. (20)",
             statement=statement,
             variables=(x, y, low, high),
-            goal=Relation(right - squared, ">=0"),
-            hypotheses=(Hypothesis("A1", "y lies in Omega", Relation(inside, ">=0")),),
+            goal=Relation(right - (p - x.sx) ** 2, ">=0"),
+            hypotheses=(stated("H1", "y lies in Omega", inside),),
         )
         for statement, right in (
             ("|P(x) - x|^2 <= |y - x| for every y in Omega", ca.fabs(y.sx - x.sx)),
             ("|P(x) - x|^2 <= |y - x|^2 for every y in Omega", (y.sx - x.sx) ** 2),
         )
     )
-    mutation = Mutation("right side squared", mended, Status.REFUTED)
-    witness = {"x": (0,), "y": (3,), "low": (2,), "high": (4,)}
-    return ClaimCase(printed, Status.REFUTED, mutation, (witness,))
+    at = {"x": x.sx, "s": p, "y": y.sx, "low": low.sx, "high": high.sx}
+    terms = (Square(y.sx - p), Instance(0, at, factor=ca.SX(2)))
+    example = {"x": (0,), "y": (3,), "low": (2,), "high": (4,)}
+    proof = Proof(mended, (projection(),), (terms,), example=example)
+    mutation = Mutation("right side squared", proof, holds=True)
+    return ClaimCase(printed, mutation, (example,), Repair(proof))

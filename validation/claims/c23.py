@@ -1,0 +1,86 @@
+"""C23: the box (10) keeps the joints inside their limits."""
+
+from __future__ import annotations
+
+from rrnn_opt.claim import Claim, Relation
+from rrnn_opt.robot import Kinematics
+from rrnn_opt.verification import ClaimCase, Given, Mutation, Proof, Repair
+from rrnn_opt.verification.document import Witness
+from rrnn_opt.verification.vocabulary import (
+    added,
+    not_negative,
+    scalars,
+    stated,
+)
+
+
+def case(kinematics: Kinematics) -> ClaimCase:
+    """Under (6a), q' <= beta x is kept, x = q+ - q, so x' = -q' >= -beta x.
+
+    (6a) says epsilon q'' = P - q' with P <= d+ <= c x.  On the edge v = beta x
+    of the cone, epsilon (beta x - v)' = -epsilon beta v + v - P is not
+    negative, if epsilon beta^2 - beta + c = 0.  A real beta is there only for
+    4 epsilon c <= 1; the mutation takes that for granted.  The paper gives
+    c = 0.5 and no epsilon.  Under the first-order law the limits hold as they
+    stand, which is the repaired statement.
+
+    Args:
+        kinematics: not used; the statement is about any joint.
+    """
+    x, v, P, c, beta, epsilon = scalars("x v P c beta epsilon")
+    root = epsilon.sx * beta.sx**2 - beta.sx + c.sx
+    claim = Claim(
+        id="C23",
+        source="eq. (6a), (10)",
+        statement="(10) keeps q below q+ under (6a): the cone q' <= beta x is kept",
+        variables=(x, v, P, c, beta, epsilon),
+        goal=Relation(-epsilon.sx * beta.sx * v.sx + v.sx - P.sx, ">=0"),
+        hypotheses=(
+            stated("H1", "P <= d+ <= c x", c.sx * x.sx - P.sx),
+            stated("H2", "on the edge: q' = beta x", v.sx - beta.sx * x.sx, "==0"),
+            added(
+                "A1", "4 epsilon c <= 1: beta solves eps b^2 - b + c = 0", root, "==0"
+            ),
+            added("A2", "q'(0) <= beta (q+ - q(0))"),
+        ),
+        domain=not_negative(x, c, epsilon),
+        order="second-order",
+    )
+    terms = (Given(0), Given(1, 0, 1 - epsilon.sx * beta.sx), Given(2, 0, -x.sx))
+    rule = "Nagumo: a set that a Lipschitz field does not leave at its edge is kept"
+    example: Witness = {
+        "x": [1],
+        "v": [0.5],
+        "P": [0],
+        "c": [0.25],
+        "beta": [0.5],
+        "epsilon": [1],
+    }
+    proof = Proof(claim, (), (terms,), (rule,), example)
+    discriminant = 1 - 4 * epsilon.sx * c.sx
+    variant = Claim(
+        "C23",
+        "eq. (10)",
+        "a real beta is there for every epsilon and c",
+        (c, epsilon),
+        Relation(discriminant, ">=0"),
+        domain=not_negative(c, epsilon),
+    )
+    return ClaimCase(
+        proof, Mutation("4 epsilon c of any size", variant), (), Repair(_first_order())
+    )
+
+
+def _first_order() -> Proof:
+    """Q' <= c x at x = 0 is q' <= 0; for all x, (x exp(c t))' >= 0."""
+    x, v, c = scalars("x v c")
+    claim = Claim(
+        id="C23",
+        source="eq. (10), (18)",
+        statement="under the first-order law x' + c x >= 0: x >= x(0) exp(-c t)",
+        variables=(x, v, c),
+        goal=Relation(-v.sx + c.sx * x.sx, ">=0"),
+        hypotheses=(stated("H1", "q' = P <= d+ <= c x", c.sx * x.sx - v.sx),),
+        order="first-order",
+    )
+    return Proof(claim, (), ((Given(0),),), (), {"x": [1], "v": [0], "c": [1]})
