@@ -40,13 +40,13 @@ def judge(graph: ClaimGraph, payload: Any, document: Any) -> Answer:
     known = isinstance(solvers, list) and all(s in SOLVERS for s in solvers)
     if not (known and solvers and len(set(solvers)) == len(solvers)):
         raise DocumentError(WHERE, f"payload: solvers are some of {SOLVERS}")
-    script = _Script(graph)
+    text = Script(graph)
     for solver in solvers:
-        status = run(solver, script.lines, script.broken)
+        status = run(solver, text.lines, text.broken)
         if status != "unsat":
             raise UndecidedError(f"{solver} says {status}")
     reason = f"no real numbers break the goal, says {' and '.join(solvers)}"
-    return Answer("PROVED", reason, "smt", undefined(tuple(sorted(script.partial))))
+    return Answer("PROVED", reason, "smt", undefined(tuple(sorted(text.partial))))
 
 
 def run(solver: str, lines: Sequence[str], broken: Sequence[str]) -> str:
@@ -70,8 +70,17 @@ def run(solver: str, lines: Sequence[str], broken: Sequence[str]) -> str:
     return "unsat" if all_unsat else next(w for w in (*words, "?") if w != "unsat")
 
 
-class _Script:
-    """SMT-LIB lines of a graph, and the formulas that would break its goal."""
+class Script:
+    """SMT-LIB lines of a graph, and the formulas that would break its goal.
+
+    Attributes:
+        lines: declarations and what is known.
+        broken: one formula an element of the goal.
+        partial: operations met that are not defined everywhere.
+
+    Raises:
+        UndecidedError: an operation or constant has no translation.
+    """
 
     def __init__(self, graph: ClaimGraph) -> None:
         self.graph = graph
