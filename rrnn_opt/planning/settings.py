@@ -33,6 +33,9 @@ class RandomRnn:
         ik_steps: most steps of one inverse kinematics run.
         ik_share: share of the goal tolerance that it must reach.
         ik_tries: runs before the search starts.
+        edge: a coordinate of the random attraction is ``u^edge / 2`` of its range
+            away from a limit, u uniform; 1 draws uniformly.  Attractions from
+            near the limits pull a slide through more of the space.
         project: project steps on contact rows; without, a slide stops at contact.
         connect: after a random slide, slide from the other tree to its end.
         drive: let every third heuristic slide follow the tip error from the start
@@ -60,6 +63,7 @@ class RandomRnn:
     ik_steps: int = 60
     ik_share: float = 0.2
     ik_tries: int = 500
+    edge: int = 6
     project: bool = True
     connect: bool = True
     drive: bool = True

@@ -8,6 +8,22 @@ static void draw_posture(planner_t *planner, double *q)
     }
 }
 
+/* A posture for the random attraction: every coordinate is u^edge / 2 of its
+ * range away from either end, u uniform. */
+static void draw_attraction(planner_t *planner, double *q)
+{
+    for (int32_t k = 0; k < NV; k++) {
+        const double low = planner->sample_lower[k], high = planner->sample_upper[k];
+        const double twice = 2.0 * rng_uniform(&planner->rng);
+        const double u = twice < 1.0 ? twice : twice - 1.0;
+        double way = 0.5 * (high - low);
+        for (int32_t power = 0; power < planner->set.edge; power++) {
+            way *= u;
+        }
+        q[k] = twice < 1.0 ? low + way : high - way;
+    }
+}
+
 /* The goal with its region, if it has one, shrunk to a random point of it. */
 static tip_goal_t draw_point(planner_t *planner, const tip_goal_t *tip)
 {

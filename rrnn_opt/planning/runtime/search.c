@@ -70,7 +70,7 @@ static int random_turn(planner_t *planner)
     if (planner->random_turns++ % 2 == 0) {
         find_root(planner, NULL);
     }
-    draw_posture(planner, target.q);
+    draw_attraction(planner, target.q);
     const int side = planner->tree[1].count < planner->tree[0].count &&
                      planner->tree[1].count > 0;
     const int32_t from = nearest(&planner->tree[side], target.q);

@@ -37,6 +37,7 @@ typedef struct {
     int32_t max_roots;
     int32_t ik_steps;
     int32_t ik_tries;     /* postures tried before the search starts */
+    int32_t edge;         /* power that draws the attraction to the limits */
     int32_t project;      /* 0: no contact rows, a slide stops at contact */
     int32_t connect;      /* 0: no connecting slide after a random one */
     int32_t drive;        /* 0: no slide straight to a tip goal */
