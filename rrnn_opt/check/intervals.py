@@ -119,7 +119,7 @@ def fmax(a: Interval, b: Interval) -> Interval:
 
 def _truth(yes: Any, no: Any, *operands: Interval) -> Interval:
     """1 where something is certain, 0 where it is excluded, else [0, 1]."""
-    known = ~np.any([np.isnan(x).any(axis=0) for x in operands], axis=0)
+    known = ~np.isnan(sum(np.add(x[0], x[1]) for x in operands))
     rows = np.stack([np.where(yes, -1.0, 0.0), np.where(no, 0.0, 1.0)])
     return np.where(known, rows, np.nan)
 
