@@ -1,0 +1,184 @@
+"""Search time of the planner, family by family, beside VAMP's figures.
+
+    python -m benchmarks.search [--starts 1000] [--seeds 5] [--plans 20]
+
+Each time is the least thread CPU time of three runs of the same search (the
+machine is shared), inverse kinematics of tip goals included, set-up of the
+problem excluded.  VAMP's figures are those of its own timers (version 0.6.4,
+RRT-Connect, joint goals, edges checked every 1/32 rad and not certified),
+measured before on a machine of the same kind; this command does not run it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import pathlib
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+import rrnn_opt as rr
+from benchmarks.clutter import scenes
+from benchmarks.record import surroundings
+from rrnn_opt.planning import Problem, RandomRnn
+from rrnn_opt.planning.request import pack
+from rrnn_opt.planning.runtime_cache import runtime_of
+from rrnn_opt.planning.runtime_library import Search
+from rrnn_opt.validation.tables.starts import start_problem
+
+DATA = pathlib.Path(__file__).parent / "data" / "mbm_panda.json"
+VAMP = {
+    "small": (0.043, 0.558),
+    "tall": (0.042, 0.147),
+    "box": (0.094, 0.239),
+    "table_pick": (0.043, 0.079),
+    "under_pick": (0.066, 0.140),
+}
+"""p50 and p95 of its search over all 100 problems of a family, ms."""
+REPEATS, BUDGET, LIMIT_S = 3, 20_000, 10.0
+
+
+@dataclass(frozen=True)
+class Found:
+    """One search: did it end well, and what it took."""
+
+    status: str
+    ms: float
+    explorations: int
+    steps: int
+
+
+def searched(problem: Problem, seed: int) -> Found:
+    """Least CPU time of some runs of one search; all runs do the same."""
+    joints = tuple(g.joints for g in problem.goals if hasattr(g, "joints"))
+    tips = tuple(g for g in problem.goals if not hasattr(g, "joints"))
+    settings, least = RandomRnn(), np.inf
+    packed = pack(problem, joints, tips, seed)
+    runtime = runtime_of(problem.robot, settings.cell)
+    for _ in range(REPEATS):
+        with Search(runtime, settings, packed.struct, packed.keep) as search:
+            begin, status = time.thread_time(), "paused"
+            while status == "paused":
+                status = search.run(BUDGET, LIMIT_S)
+            least = min(least, 1e3 * (time.thread_time() - begin))
+            counts = search.counts()
+    total = counts.random + counts.heuristic
+    return Found(status, least, total, counts.rollout_steps)
+
+
+def _quaternion(matrix: Sequence[Sequence[float]]) -> list[float]:
+    from scipy.spatial.transform import Rotation
+
+    return [float(x) for x in Rotation.from_matrix(np.array(matrix)[:3, :3]).as_quat()]
+
+
+def document(problem: dict[str, Any], goal: str) -> dict[str, Any]:
+    """A problem of the data file with its joint, position or pose goal."""
+    goals: dict[str, dict[str, Any]] = {
+        "joints": {"joints": problem["goal"]},
+        "position": {"position": problem["goal_position"], "tolerance": 1e-3},
+    }
+    pose = {"quat_xyzw": _quaternion(problem["goal_pose"]), "angle_tolerance": 5e-3}
+    goals["pose"] = goals["position"] | pose
+    return {
+        "robot": "panda",
+        "start": problem["start"],
+        "goal": goals[goal],
+        "obstacles": problem["obstacles"],
+    }
+
+
+def cases(
+    starts: int, seeds: int
+) -> Iterator[tuple[str, str, list[tuple[dict[str, Any], int]]]]:
+    """Family, goal, and its problem documents with their seeds."""
+    for name in ("plane", "window"):
+        yield name, "position", [(start_problem(name, i), i) for i in range(starts)]
+    families = json.loads(DATA.read_text(encoding="utf-8"))["problems"]
+    for goal in ("joints", "position", "pose"):
+        for family, problems in families.items():
+            documents = [document(p, goal) for p in problems]
+            yield family, goal, [(d, s) for d in documents for s in range(seeds)]
+    for kind in ("cage", "shelf"):
+        yield kind, "position", [(d, 0) for d in scenes(kind, 20 * seeds)]
+
+
+def _row(family: str, goal: str, found: list[Found]) -> str:
+    solved = [f for f in found if f.status == "solved"]
+    times = np.array([f.ms for f in solved])
+    p50, p95 = np.percentile(times, [50, 95])
+    none = sum(f.status == "no_goal_posture" for f in found)
+    peer = VAMP.get(family) if goal == "joints" else None
+    beside = (
+        f"{peer[0]:.3f} / {peer[1]:.3f} | {p50 / peer[0]:.1f} / {p95 / peer[1]:.1f}"
+        if peer
+        else " | "
+    )
+    each = 1e3 * times.sum() / sum(f.steps for f in solved)
+    cells = (
+        family,
+        goal,
+        f"{len(solved)}/{len(found)}" + (f" ({none} without posture)" if none else ""),
+        f"{p50:.3f} / {p95:.3f}",
+        beside,
+        f"{np.mean([f.explorations for f in solved]):.2f}",
+        f"{np.median([f.steps for f in solved]):.0f}",
+        f"{each:.2f}",
+    )
+    return "| " + " | ".join(cells) + " |"
+
+
+def searches(starts: int, seeds: int) -> Iterator[str]:
+    """The table of searches, line by line."""
+    yield (
+        "| family | goal | solved | search p50 / p95 [ms] | VAMP [ms] | ratio |"
+        " explorations, mean | steps, p50 | step [us] |"
+    )
+    yield "|---|---|---|---:|---:|---:|---:|---:|---:|"
+    for family, goal, problems in cases(starts, seeds):
+        found = [searched(Problem.from_dict(d), seed) for d, seed in problems]
+        yield _row(family, goal, found)
+
+
+def plans(count: int) -> Iterator[str]:
+    """Whole ``rr.plan``: where its time goes, line by line."""
+    yield "| family | solved | whole | search | refine | retime | certificate |"
+    yield "|---|---|---:|---:|---:|---:|---:|"
+    for family, goal, problems in cases(count, 1):
+        if goal == "joints" or family in ("plane", "window"):
+            spent, solved = [], 0
+            for data, seed in problems[:count]:
+                problem, begin = Problem.from_dict(data), time.perf_counter()
+                result = rr.plan(problem, seed=seed)
+                whole = time.perf_counter() - begin
+                stats, proof = result.to_dict()["stats"], result.certificate or {}
+                names = ("plan_time_s", "refine_time_s", "retime_time_s")
+                parts = [stats.get(name, 0.0) for name in names]
+                spent.append([whole, *parts, proof.get("time_s", 0.0)])
+                solved += result.status == "solved"
+            p50, p95 = np.percentile(1e3 * np.array(spent), [50, 95], axis=0)
+            shown = [f"{a:.2f} / {b:.2f}" for a, b in zip(p50, p95, strict=True)]
+            yield f"| {family} | {solved}/{len(spent)} | {' | '.join(shown)} |"
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.search")
+    parser.add_argument("--starts", type=int, default=1000)
+    parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--plans", type=int, default=20)
+    args = parser.parse_args()
+    about = surroundings()
+    print(f"{about['cpu']}; {about['compiler']}; commit {about['commit']}\n")
+    for lines in (searches(args.starts, args.seeds), plans(args.plans)):
+        for line in lines:
+            print(line, flush=True)
+        print()
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
