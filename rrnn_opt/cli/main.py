@@ -16,6 +16,7 @@ from typing import Any, NoReturn
 
 from rrnn_opt.cli import (
     check,
+    compare,
     demo,
     doctor,
     generate,
@@ -39,6 +40,7 @@ COMMANDS: dict[str, Any] = {
     "simulate": simulate,
     "generate": generate,
     "verify": verify,
+    "compare": compare,
     "spheres": spheres,
     "robots": robots,
     "doctor": doctor,

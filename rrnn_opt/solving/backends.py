@@ -12,7 +12,15 @@ import numpy as np
 
 from rrnn_opt.solving.infeasible import find_farkas
 from rrnn_opt.solving.protocol import Instance, Solution
-from rrnn_opt.solving.residual import NOT_JUDGED, Array, Dense, Duals, judge
+from rrnn_opt.solving.residual import (
+    NOT_JUDGED,
+    Array,
+    Dense,
+    Duals,
+    handed,
+    judge,
+    relative_residual,
+)
 from rrnn_opt.solving.status import Status
 
 TIGHT: Mapping[str, Mapping[str, Any]] = {
@@ -23,12 +31,45 @@ TIGHT: Mapping[str, Mapping[str, Any]] = {
     "piqp": {"eps_abs": 1e-11, "eps_rel": 0.0},
     "proxqp": {"eps_abs": 1e-11, "eps_rel": 0.0},
     "quadprog": {},
+    "highs": {
+        "primal_feasibility_tolerance": 1e-10,
+        "dual_feasibility_tolerance": 1e-10,
+    },
+    "scs": {"eps_abs": 1e-10, "eps_rel": 0.0, "max_iters": 20_000},
+    "ecos": {"feastol": 1e-12, "abstol": 1e-12, "reltol": 1e-12},
+    "cvxopt": {"feastol": 1e-12, "abstol": 1e-12, "reltol": 1e-12},
+    "qpalm": {"eps_abs": 1e-10, "eps_rel": 0.0},
+    "qtqp": {"tol_feas": 1e-11, "tol_gap_abs": 1e-11, "tol_gap_rel": 1e-11},
+    "pyqpmad": {},
+    "jaxopt_osqp": {"tol": 1e-8},
+    "qpax": {"solver_tol": 1e-10},
 }
 """The settings called "tight": asked-for accuracy far below every tolerance."""
 
 
+@dataclass(frozen=True)
+class Told:
+    """What a solver says of its own work.
+
+    Attributes:
+        inner_s: time spent on solving, s, or None.
+        iterations: or None.
+        claims: whether it says that it solved the problem, or None.
+    """
+
+    inner_s: float | None = None
+    iterations: int | None = None
+    claims: bool | None = None
+
+
 def solution(
-    problem: Dense, x: Any, duals: Duals | None, *, tolerance: float, time_s: float
+    problem: Dense,
+    x: Any,
+    duals: Duals | None,
+    *,
+    tolerance: float,
+    time_s: float,
+    told: Told | None = None,
 ) -> Solution:
     """An answer with our judgement; a point only where the judgement gives one.
 
@@ -38,35 +79,52 @@ def solution(
         duals: its multipliers, or None.
         tolerance: on the KKT residual.
         time_s: what it took, s.
+        told: what the solver says of itself; read by nobody's verdict.
     """
+    told = told or Told()
     status, residual = judge(problem, x, duals, tolerance=tolerance)
+    relative = relative_residual(problem, x, duals)
+    point, multipliers = None, None
     if status.has_point:
-        point = np.array(x, dtype=np.float64)
-        return Solution(point, duals, status, residual, time_s)
-    if find_farkas(problem) is not None:
+        point, multipliers = np.array(x, dtype=np.float64), duals
+    elif find_farkas(problem) is not None:
         status = Status.PRIMAL_INFEASIBLE
-    return Solution(None, None, status, residual, time_s)
+    return Solution(
+        point,
+        multipliers,
+        status,
+        residual,
+        time_s,
+        relative=relative,
+        inner_s=told.inner_s,
+        iterations=told.iterations,
+        claims=told.claims,
+        handed=handed(x),
+    )
 
 
 @dataclass
 class Qpsolvers:
-    """A ``qpsolvers`` back end; every solve is a cold one.
+    """A ``qpsolvers`` back end, set up anew for every problem.
 
     Attributes:
         name: e.g. "clarabel"; an unknown or absent one answers NOT_AVAILABLE.
         settings: passed on; the tight ones of that solver by default.
         tolerance: KKT residual that counts as solved.
+        mode: "cold", or "warm": told its last answer as a start (``initvals``,
+            which some back ends do not read).
     """
 
     name: str
     settings: Mapping[str, Any] | None = None
     tolerance: float = 1e-6
-    mode: str = field(default="cold", init=False)
+    mode: str = "cold"
     _instance: Instance | None = field(default=None, init=False, repr=False)
+    _last: Array | None = field(default=None, init=False, repr=False)
 
     def setup(self, instance: Instance) -> None:
-        """Take the first instance."""
-        self._instance = instance
+        """Take the first instance; the last answer is forgotten."""
+        self._instance, self._last = instance, None
 
     def update(self, instance: Instance) -> None:
         """Take the next instance."""
@@ -90,19 +148,25 @@ class Qpsolvers:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 answer = qpsolvers.solve_problem(
-                    self._instance.problem, solver=self.name, **settings
+                    self._instance.problem,
+                    solver=self.name,
+                    initvals=self._last,
+                    **settings,
                 )
         except Exception as error:
             spent = time.perf_counter() - start
             return _failed(dense, error, spent)
         spent = time.perf_counter() - start
-        return solution(
+        found = solution(
             dense,
             answer.x,
             _duals_of(dense, answer),
             tolerance=self.tolerance,
             time_s=spent,
+            told=_told(answer),
         )
+        self._last = found.x if self.mode == "warm" else None
+        return found
 
 
 def _failed(problem: Dense, error: Exception, time_s: float) -> Solution:
@@ -128,3 +192,24 @@ def _duals_of(qp: Dense, answer: Any) -> Duals | None:
         z=part(answer.z, len(qp.h)),
         z_box=part(answer.z_box, len(qp.q)),
     )
+
+
+def _told(answer: Any) -> Told:
+    """What a qpsolvers solution says of time, iterations and success."""
+    inner = getattr(answer, "solve_time", None)
+    return Told(
+        inner_s=None if inner is None else float(inner),
+        iterations=_iterations(answer.extras or {}),
+        claims=bool(answer.found),
+    )
+
+
+def _iterations(extras: Mapping[str, Any]) -> int | None:
+    """The count under the name that this back end gives it."""
+    for name in ("iterations", "iter", "num_iterations", "steps"):
+        value = extras.get(name, getattr(extras.get("info"), name, None))
+        if isinstance(value, int | np.integer):
+            return int(value)
+        if np.ndim(value) == 1 and np.size(value):  # quadprog: steps, drops
+            return int(np.sum(value))
+    return None

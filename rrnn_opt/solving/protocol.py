@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from rrnn_opt.solving.residual import Array, Duals, Residual
+from rrnn_opt.solving.residual import NOT_JUDGED, Array, Duals, Residual
 from rrnn_opt.solving.status import Status
 
 
@@ -35,6 +35,12 @@ class Solution:
         residual: KKT residuals of what the solver returned.
         time_s: wall time of update and solve, s; building the problem excluded.
         message: the error of a solver that raised one.
+        relative: the residuals relative to the sizes of their terms.
+        inner_s: of ``time_s``, what the solver itself counts for solving, s; None
+            where it does not say.
+        iterations: as the solver counts them, or None.
+        claims: whether the solver itself says that it solved the problem.
+        handed: what it handed out: "none", "NaN", "junk", "zeros" or "numbers".
     """
 
     x: Array | None
@@ -43,6 +49,11 @@ class Solution:
     residual: Residual
     time_s: float
     message: str = ""
+    relative: Residual = NOT_JUDGED
+    inner_s: float | None = None
+    iterations: int | None = None
+    claims: bool | None = None
+    handed: str = "none"
 
 
 class Solver(Protocol):

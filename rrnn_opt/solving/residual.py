@@ -155,6 +155,49 @@ def kkt_residual(problem: Any, x: ArrayLike | None, duals: Duals | None) -> Resi
     )
 
 
+def relative_residual(
+    problem: Any, x: ArrayLike | None, duals: Duals | None
+) -> Residual:
+    """The residuals of ``kkt_residual``, each divided by the size of its terms.
+
+    Primal by 1 + the largest entry of |A x|, |b|, |G x|, |h|; dual by 1 + that of
+    |P x|, |q|, |A'y|, |G'z|, |z_box|; gap and complementarity by 1 + |the cost|.
+
+    Args:
+        problem: ``qpsolvers.Problem`` or ``Dense``.
+        x: (n,) point, or None.
+        duals: its multipliers, or None.
+    """
+    qp, absolute = Dense.of(problem), kkt_residual(problem, x, duals)
+    if math.isinf(absolute.dual) or duals is None:
+        return absolute
+    point = np.asarray(x, dtype=np.float64)
+    rows = (qp.A @ point, qp.b, qp.G @ point, qp.h[np.isfinite(qp.h)])
+    terms = (qp.P @ point, qp.q, qp.A.T @ duals.y, qp.G.T @ duals.z, duals.z_box)
+    primal, dual = (
+        1.0 + max(_largest(np.abs(part)) for part in parts) for parts in (rows, terms)
+    )
+    cost = 1.0 + abs(float(point @ (0.5 * qp.P @ point + qp.q)))
+    return Residual(
+        absolute.primal / primal,
+        absolute.dual / dual,
+        absolute.gap / cost,
+        absolute.complementarity / cost,
+    )
+
+
+def handed(x: ArrayLike | None) -> str:
+    """What sort of point: "none", "NaN", OSQP's "junk", "zeros", or "numbers"."""
+    if x is None:
+        return "none"
+    values = np.asarray(x, dtype=np.float64)
+    if (values == OSQP_JUNK).any():
+        return "junk"
+    if not np.isfinite(values).all():
+        return "NaN"
+    return "numbers" if values.any() else "zeros"
+
+
 def judge(
     problem: Any, x: ArrayLike | None, duals: Duals | None, *, tolerance: float
 ) -> tuple[Status, Residual]:

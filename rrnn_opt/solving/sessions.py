@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.solving.backends import TIGHT, solution
+from rrnn_opt.solving.backends import TIGHT, Told, solution
 from rrnn_opt.solving.protocol import Instance, Solution
 from rrnn_opt.solving.residual import Array, Dense, Duals
 
@@ -32,7 +32,7 @@ def _split(qp: Dense, multipliers: Array) -> Duals:
     """Multipliers of the stacked rows by kind."""
     n, mineq = len(qp.q), len(qp.h)
     box, z, y = np.split(np.asarray(multipliers, dtype=np.float64), [n, n + mineq])
-    return Duals(y=y, z=z, z_box=box)
+    return Duals(y=y[: len(qp.b)], z=z, z_box=box)
 
 
 @dataclass
@@ -97,6 +97,7 @@ class OsqpSession:
             None if answer.y is None else _split(qp, answer.y),
             tolerance=self.tolerance,
             time_s=spent,
+            told=_told_by_osqp(answer.info),
         )
 
 
@@ -150,6 +151,7 @@ class DaqpSession:
             _split(qp, info["lam"]) if found else None,
             tolerance=self.tolerance,
             time_s=spent,
+            told=Told(info.get("solve_time"), info.get("iterations"), found),
         )
 
     def _set_up(self, qp: Dense) -> None:
@@ -160,6 +162,10 @@ class DaqpSession:
         self._model.setup(*_daqp_form(qp))
 
 
+def _told_by_osqp(info: Any) -> Told:
+    return Told(info.solve_time, info.iter, info.status == "solved")
+
+
 def _daqp_form(
     qp: Dense,
 ) -> tuple[Array, Array, Array, Array, Array, NDArray[np.int32]]:
@@ -167,8 +173,10 @@ def _daqp_form(
     lower, upper = _sides(qp)
     sense = np.zeros(len(upper), dtype=np.int32)
     sense[len(upper) - len(qp.b) :] = _EQUALITY
-    rows = np.ascontiguousarray(np.vstack([qp.G, qp.A]))
-    big = 1e30
+    rows, big = np.ascontiguousarray(np.vstack([qp.G, qp.A])), 1e30
+    if len(rows) == 0:  # DAQP reads beyond an empty matrix: a row that asks nothing
+        rows, sense = np.zeros((1, len(qp.q))), np.append(sense, np.int32(0))
+        lower, upper = np.append(lower, -big), np.append(upper, big)
     return (
         np.ascontiguousarray(qp.P),
         np.ascontiguousarray(qp.q),

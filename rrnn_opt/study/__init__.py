@@ -4,7 +4,7 @@ from rrnn_opt.study.cluster import Cluster
 from rrnn_opt.study.environment import environment, processor
 from rrnn_opt.study.processes import Here, Processes, WorkerError
 from rrnn_opt.study.progress import Progress
-from rrnn_opt.study.results import Results, table
+from rrnn_opt.study.results import Results, rows_digest, table
 from rrnn_opt.study.store import Store, StoreError
 from rrnn_opt.study.study import (
     Case,
@@ -39,6 +39,7 @@ __all__ = [
     "pin_threads",
     "processor",
     "rows",
+    "rows_digest",
     "run",
     "table",
     "wilson",

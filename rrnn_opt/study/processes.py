@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import pickle
 import signal
+import time
 import traceback
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
@@ -50,10 +52,13 @@ class Processes:
     Attributes:
         jobs: worker processes.
         attempts: how often a case may lose its worker.
+        patience_s: wall time that a case may take, s; then its worker is ended and
+            the case becomes a row that says so.
     """
 
     jobs: int
     attempts: int = 2
+    patience_s: float = math.inf
 
     def rows(self, study: Study, cases: Iterator[Case], seed: int) -> Iterator[Row]:
         """One row a case, as they are finished.
@@ -61,7 +66,7 @@ class Processes:
         Raises:
             WorkerError: a worker died before it could take a case.
         """
-        crew = _Crew(study, seed, self.attempts)
+        crew = _Crew(study, seed, self)
         try:
             yield from crew.work(cases, self.jobs)
         finally:
@@ -80,9 +85,10 @@ class _Worker:
     pipe: Connection
     case: Case | None = None
     ready: bool = False
+    since: float = 0.0
 
     def give(self, case: Case) -> None:
-        self.case = case
+        self.case, self.since = case, time.monotonic()
         with contextlib.suppress(OSError):  # a dead one is noticed when it is read
             self.pipe.send(case)
 
@@ -90,8 +96,8 @@ class _Worker:
 class _Crew:
     """The workers of one study and what each of them is at."""
 
-    def __init__(self, study: Study, seed: int, attempts: int) -> None:
-        self._study, self._seed, self._attempts = study, seed, attempts
+    def __init__(self, study: Study, seed: int, rules: Processes) -> None:
+        self._study, self._seed, self._rules = study, seed, rules
         self._workers: list[_Worker] = []
         self._again: deque[Case] = deque()
         self._deaths: dict[str, int] = {}
@@ -107,10 +113,29 @@ class _Crew:
             busy = {w.pipe: w for w in self._workers if w.case is not None}
             if not busy:
                 return
-            for pipe in wait(list(busy)):
+            for pipe in wait(list(busy), self._rest(busy.values())):
                 row = self._heard(busy[pipe])  # type: ignore[index]
                 if row is not None:
                     yield row
+            yield from self._late()
+
+    def _rest(self, busy: Iterable[_Worker]) -> float | None:
+        """Seconds until the next case is late; None where none ever is."""
+        if math.isinf(self._rules.patience_s):
+            return None
+        first = min(worker.since for worker in busy)
+        return max(0.0, first + self._rules.patience_s - time.monotonic())
+
+    def _late(self) -> Iterator[Row]:
+        """Rows of cases that took too long; their workers are ended."""
+        now, patience = time.monotonic(), self._rules.patience_s
+        for worker in list(self._workers):
+            if worker.case is None or now - worker.since < patience:
+                continue
+            worker.process.kill()
+            self._dropped(worker)
+            error = f"WorkerError: no answer within {patience:g} s"
+            yield Row(worker.case.key, {}, error, lost=True)
 
     def _hire(self) -> _Worker:
         context = get_context("spawn")
@@ -141,9 +166,7 @@ class _Crew:
         return row
 
     def _died(self, worker: _Worker) -> Row | None:
-        self._workers.remove(worker)
-        worker.process.join()
-        worker.pipe.close()
+        self._dropped(worker)
         case = worker.case
         assert case is not None
         if not worker.ready:
@@ -152,10 +175,15 @@ class _Crew:
                 f"(status {worker.process.exitcode}): run with one job to see why"
             )
         deaths = self._deaths[case.key] = self._deaths.get(case.key, 0) + 1
-        if deaths < self._attempts:
+        if deaths < self._rules.attempts:
             self._again.append(case)
             return None
         return lost_row(case)
+
+    def _dropped(self, worker: _Worker) -> None:
+        self._workers.remove(worker)
+        worker.process.join()
+        worker.pipe.close()
 
     def dismiss(self) -> None:
         """End all workers, in the middle of a case if need be."""

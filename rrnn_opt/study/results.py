@@ -121,10 +121,6 @@ class Results:
                     entry["key"], entry["metrics"], entry["error"], entry["time_s"]
                 )
 
-    def digest(self, study: Study) -> str:
-        """Digest of the study's finished rows, times left out, 16 hex digits."""
-        return hashlib.sha256(table(self.rows(study))).hexdigest()[:16]
-
     def _mark(self, study: Study, case: Case) -> str:
         return identity(study, case, self._seed, surroundings=self._around)
 
@@ -166,6 +162,11 @@ def table(rows: Iterable[Row]) -> bytes:
         for row in sorted(rows, key=lambda row: row.key)
     ]
     return "".join(line + "\n" for line in lines).encode()
+
+
+def rows_digest(rows: Iterable[Row]) -> str:
+    """Digest of ``table``, 16 hex digits."""
+    return hashlib.sha256(table(rows)).hexdigest()[:16]
 
 
 def _timeless(value: Any) -> Any:

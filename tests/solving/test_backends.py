@@ -10,7 +10,12 @@ from rrnn_opt.solving.residual import OSQP_JUNK
 from rrnn_opt.solving.sessions import DaqpSession, OsqpSession
 from rrnn_opt.solving.status import Status
 
-INSTALLED = [name for name in TIGHT if name in qpsolvers.available_solvers]
+COARSE = ("highs", "ecos", "jaxopt_osqp")
+"""Back ends that end at residuals of about 1e-7, whatever they are asked for."""
+
+INSTALLED = [
+    name for name in TIGHT if name in {*qpsolvers.available_solvers} - {*COARSE}
+]
 
 
 def instance(seed: int, *, stretch: float = 1.0) -> Instance:

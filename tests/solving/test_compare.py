@@ -131,3 +131,18 @@ def test_too_many_active_bounds_leave_no_unique_multipliers():
     answer = solver.solve()
     assert answer.status is Status.SOLVED
     assert not multipliers_unique(Instance(problem), answer)
+
+
+def test_daqp_streams_qps_without_rows():
+    """A box alone: DAQP itself reads beyond the empty matrix."""
+    from qpsolvers import Problem
+
+    from rrnn_opt.solving import DaqpSession, Instance, Status
+
+    solver, one = DaqpSession(), np.ones(2)
+    for k, q in enumerate(([1.0, 0.0], [-3.0, 0.5])):
+        problem = Problem(np.eye(2), np.array(q), lb=-one, ub=one)
+        (solver.update if k else solver.setup)(Instance(problem))
+        answer = solver.solve()
+        assert answer.status is Status.SOLVED
+        np.testing.assert_allclose(answer.x, np.clip(-np.array(q), -1, 1), atol=1e-12)

@@ -52,3 +52,11 @@ def test_here_goes_in_order(studies):
     study = studies.Draws(4)
     found = [row.key for row in Here().rows(study, iter(study), 0)]
     assert found == [f"case/{k}" for k in range(4)]
+
+
+def test_a_case_that_takes_too_long_is_ended(studies):
+    workers = Processes(2, patience_s=1.5)
+    found = list(rows(studies.Draws(3, stuck=1), workers=workers))
+    errors = {row.key: row.error for row in found}
+    assert errors["case/1"] == "WorkerError: no answer within 1.5 s"
+    assert errors["case/0"] == errors["case/2"] == ""

@@ -21,7 +21,7 @@ from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations import minimum_velocity
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.solving import TIGHT, Instance, Qpsolvers
-from rrnn_opt.solving.residual import OSQP_JUNK, Dense
+from rrnn_opt.solving.residual import Dense, handed
 from rrnn_opt.solving.settle import settle_at
 from rrnn_opt.study import Case
 from rrnn_opt.validation.studies.catalogue import networks_of
@@ -104,7 +104,7 @@ def _solver_says(name: str, problem: Any) -> list[str]:
     except Exception as error:
         said = [f"raised {type(error).__name__}"]
     else:
-        said = ["found" if raw.found else "not found", f"x {_kind(raw.x)}"]
+        said = ["found" if raw.found else "not found", f"x {handed(raw.x)}"]
     solver = Qpsolvers(name)
     solver.setup(Instance(problem))
     return [*said, f"judged {solver.solve().status.key}"]
@@ -113,16 +113,4 @@ def _solver_says(name: str, problem: Any) -> list[str]:
 def _network_says(network: Dynamics, given: Mapping[str, Array]) -> list[str]:
     x, info = settle_at(network, given, max_steps=20_000)
     word = "not found" if x is None else "found"
-    return [word, f"x {_kind(x)}", f"judged {info.status.key}"]
-
-
-def _kind(x: Any) -> str:
-    """What sort of point: none, NaN, OSQP's junk, zeros, or plain numbers."""
-    if x is None:
-        return "none"
-    values = np.asarray(x, dtype=np.float64)
-    if (values == OSQP_JUNK).any():
-        return "junk"
-    if not np.isfinite(values).all():
-        return "NaN"
-    return "numbers" if values.any() else "zeros"
+    return [word, f"x {handed(x)}", f"judged {info.status.key}"]

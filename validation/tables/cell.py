@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
+
+from rrnn_opt.report.markdown import markdown_table as markdown
+
+__all__ = ["Cell", "Verdict", "judged", "markdown"]
 
 Verdict = Literal[
     "reproduced", "better", "not reproduced", "cannot be reproduced as printed"
@@ -62,16 +65,3 @@ def judged(
     if interval[0] <= paper <= interval[1]:
         return "reproduced"
     return "better" if (ours > paper) == larger_is_better else "not reproduced"
-
-
-def markdown(header: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
-    """A table in Markdown; floats with four significant digits."""
-    lines = [list(header), ["---"] * len(header)]
-    lines += [[_text(value) for value in row] for row in rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def _text(value: object) -> str:
-    if value is None:
-        return "-"
-    return f"{value:.4g}" if isinstance(value, float) else str(value)

@@ -13,9 +13,9 @@ class Draws:
 
     name = "draws"
 
-    def __init__(self, count, *, wait_s=0.0, deadly=None, flag=None):
+    def __init__(self, count, *, wait_s=0.0, deadly=None, flag=None, stuck=None):
         self.count, self.wait_s = count, wait_s
-        self.deadly, self.flag = deadly, flag
+        self.deadly, self.flag, self.stuck = deadly, flag, stuck
 
     def __iter__(self):
         return (Case(f"case/{k}", {"k": k}) for k in range(self.count))
@@ -24,7 +24,7 @@ class Draws:
         k = case.parameters["k"]
         if k == self.deadly and not self._died_before():
             os.kill(os.getpid(), signal.SIGKILL)
-        time.sleep(self.wait_s)
+        time.sleep(100.0 if k == self.stuck else self.wait_s)
         return {
             "k": k,
             "first": float(rng.random()),
