@@ -6,6 +6,7 @@ import argparse
 import json
 import runpy
 from collections.abc import Mapping, Sequence
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -106,8 +107,12 @@ def _scheme(args: argparse.Namespace) -> list[Any]:
     from rrnn_opt.verification.catalogue import claims
 
     kinematics = Kinematics(named.robot(args.robot))
-    form = named.scheme(args.formulation)(kinematics)
-    found: list[Any] = claims(form, named.network(args.network), kinematics)
+    scheme, spheres = named.scheme(args.formulation), kinematics.robot.spheres
+    takes = "contacts" in signature(scheme).parameters and spheres
+    contacts = (len(spheres) - 1,) if takes else ()
+    form = scheme(kinematics, **({"contacts": contacts} if takes else {}))
+    network = named.network(args.network)
+    found: list[Any] = claims(form, network, kinematics, contacts=contacts)
     return found
 
 

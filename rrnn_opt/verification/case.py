@@ -7,12 +7,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from rrnn_opt.claim import Claim
+from rrnn_opt.decay import DecayClaim
 from rrnn_opt.verification.certify import certify
 from rrnn_opt.verification.composite import Proof, settle
 from rrnn_opt.verification.document import Witness
 from rrnn_opt.verification.verdict import Evidence, Status, Verdict
 
 ESTABLISHED = (Status.PROVED, Status.HOLDS_UNDER)
+Statement = Claim | DecayClaim | Proof
+"""What can be settled."""
 Place = Callable[[str, Mapping[str, Any]], str]
 """Writes a certificate under a name; returns its path."""
 
@@ -31,7 +34,7 @@ class Mutation:
     """
 
     text: str
-    proof: Claim | Proof
+    proof: Statement
     holds: bool = False
 
     def caught(self, verdict: Verdict) -> bool:
@@ -50,11 +53,11 @@ class Repair:
         witnesses: points that may refute it, too.
     """
 
-    proof: Claim | Proof
+    proof: Statement
     witnesses: tuple[Witness, ...] = ()
 
     @property
-    def claim(self) -> Claim:
+    def claim(self) -> Claim | DecayClaim:
         """The mended statement."""
         return claim_of(self.proof)
 
@@ -74,7 +77,7 @@ class ClaimCase:
         evidence: what samples or tests say beside the verdict.
     """
 
-    proof: Claim | Proof
+    proof: Statement
     mutation: Mutation | None = None
     witnesses: tuple[Witness, ...] = ()
     repaired: Repair | None = None
@@ -82,7 +85,7 @@ class ClaimCase:
     evidence: tuple[Evidence, ...] = ()
 
     @property
-    def claim(self) -> Claim:
+    def claim(self) -> Claim | DecayClaim:
         """The statement."""
         return claim_of(self.proof)
 
@@ -187,13 +190,13 @@ class Settled:
         return row
 
 
-def claim_of(statement: Claim | Proof) -> Claim:
+def claim_of(statement: Statement) -> Claim | DecayClaim:
     """The claim, whether or not it comes with a proof tree."""
     return statement.claim if isinstance(statement, Proof) else statement
 
 
 def _settled(
-    statement: Claim | Proof, witnesses: tuple[Witness, ...], seed: int
+    statement: Statement, witnesses: tuple[Witness, ...], seed: int
 ) -> Verdict:
     if isinstance(statement, Proof):
         return settle(statement, seed=seed)
@@ -201,7 +204,7 @@ def _settled(
 
 
 def verdict_row(
-    claim: Claim,
+    claim: Claim | DecayClaim,
     verdict: Verdict,
     mutation: str = "",
     *,

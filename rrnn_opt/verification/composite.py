@@ -12,6 +12,8 @@ import casadi as ca
 from rrnn_opt.check.claim_answer import UNKNOWN
 from rrnn_opt.check.claim_certificate import check_certificate
 from rrnn_opt.claim import Claim
+from rrnn_opt.decay import DecayClaim
+from rrnn_opt.errors import UndecidedError, UnsupportedOperationError
 from rrnn_opt.symbolic.tape import Tape
 from rrnn_opt.verification.certify import certify
 from rrnn_opt.verification.document import (
@@ -108,11 +110,15 @@ class Proof:
         ]
         if not missing:
             parts = [verdict.certificate for verdict in verdicts]
-            checked = check_certificate(self.document(parts, seed=seed))
-            if checked.status != UNKNOWN:
-                elapsed = time.perf_counter() - begin
-                return Verdict(fingerprint, "composite", checked, (), elapsed)
-            missing = [f"composite: {checked.reason}"]
+            try:
+                checked = check_certificate(self.document(parts, seed=seed))
+            except (UndecidedError, UnsupportedOperationError) as error:
+                missing = [f"composite: {error}"]
+            else:
+                if checked.status != UNKNOWN:
+                    elapsed = time.perf_counter() - begin
+                    return Verdict(fingerprint, "composite", checked, (), elapsed)
+                missing = [f"composite: {checked.reason}"]
         elapsed = time.perf_counter() - begin
         return Verdict(fingerprint, residue=tuple(missing), time_s=elapsed)
 
@@ -176,7 +182,7 @@ class Proof:
         return row | where | {"use": "lemma", "arguments": arguments}
 
 
-def settle(statement: Claim | Proof, *, seed: int = 0) -> Verdict:
+def settle(statement: Claim | DecayClaim | Proof, *, seed: int = 0) -> Verdict:
     """Settle a claim by the engines, or a proof by its lemmas."""
     if isinstance(statement, Proof):
         return statement.settle(seed=seed)

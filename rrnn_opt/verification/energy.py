@@ -8,8 +8,15 @@ import casadi as ca
 
 from rrnn_opt.claim import Claim, Relation
 from rrnn_opt.symbolic import Symbol
-from rrnn_opt.verification.composite import Given, Instance
+from rrnn_opt.verification.composite import Given, Instance, Proof
+from rrnn_opt.verification.lemmas import projection
 from rrnn_opt.verification.vocabulary import Programme, added, stated
+
+RULES = (
+    "Danskin: the gradient of max_y F'(z - y) - |z - y|^2/2 is F + (dF/dz)'(z - y) "
+    "- (z - y)",
+    "LaSalle: V has compact level sets, and V' = 0 only where u is the optimum",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,3 +146,11 @@ class Frozen:
         point = {s.name: [0] * s.size for s in self.symbols}
         box = {"low": [-1] * n, "high": [1] * n}
         return point | box | {"u_star": [0] * n, "lam_star": [0] * m}
+
+
+def decrease(frozen: Frozen, name: str) -> Proof:
+    """The energy of (6) decreases, and bounds the distance to the optimum."""
+    statement = "(6) with W > 0 and frozen, feasible data settles at the optimum of (3)"
+    claim = frozen.claim(name, statement, frozen.margins)
+    terms = (frozen.decrease_terms(), frozen.bound_terms())
+    return Proof(claim, (projection(),), terms, RULES, frozen.example())

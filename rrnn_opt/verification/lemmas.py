@@ -97,3 +97,39 @@ def limits_hold_zero() -> Claim:
             Hypothesis("w", "w- <= 0 <= w+, c1, c2 >= 0", Relation(signs, ">=0")),
         ),
     )
+
+
+def nonexpansive() -> Claim:
+    """(x - y)(P(x) - P(y)) >= (P(x) - P(y))^2 on one interval."""
+    x, y = Symbol.scalar("x"), Symbol.scalar("y")
+    low, high = Symbol.scalar("low"), Symbol.scalar("high")
+    gap = clip(x.sx, low.sx, high.sx) - clip(y.sx, low.sx, high.sx)
+    ordered = Relation(high.sx - low.sx, ">=0")
+    return Claim(
+        id="L4",
+        source=SOURCE,
+        statement="(x - y)(P(x) - P(y)) >= (P(x) - P(y))^2",
+        variables=(x, y, low, high),
+        goal=Relation((x.sx - y.sx) * gap - gap**2, ">=0"),
+        hypotheses=(Hypothesis("order", "low <= high", ordered),),
+    )
+
+
+def complementary() -> Claim:
+    """Mu (g + t) >= 0 for mu = max(mu + g, 0) and t >= 0.
+
+    mu and g are then complementary: mu >= 0, g <= 0, mu g = 0.
+    """
+    mu, g, t = Symbol.scalar("mu"), Symbol.scalar("g"), Symbol.scalar("t")
+    rest = Relation(ca.fmax(mu.sx + g.sx, 0) - mu.sx, "==0")
+    return Claim(
+        id="L5",
+        source="projection onto a half-line",
+        statement="mu (g + t) >= 0 where mu = max(mu + g, 0) and t >= 0",
+        variables=(mu, g, t),
+        goal=Relation(mu.sx * (g.sx + t.sx), ">=0"),
+        hypotheses=(
+            Hypothesis("mu", "mu = max(mu + g, 0)", rest),
+            Hypothesis("t", "t >= 0", Relation(t.sx, ">=0")),
+        ),
+    )

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.verification import ClaimCase, Mutation, Proof
-from rrnn_opt.verification.energy import Frozen
-from rrnn_opt.verification.lemmas import projection
-
-RULES = (
-    "Danskin: the gradient of max_y F'(z - y) - |z - y|^2/2 is F + (dF/dz)'(z - y) "
-    "- (z - y)",
-    "LaSalle: V has compact level sets, and V' = 0 only where u is the optimum",
-)
+from rrnn_opt.verification.energy import RULES, Frozen, decrease
 
 
 def case(kinematics: Kinematics) -> ClaimCase:
@@ -37,11 +30,3 @@ def case(kinematics: Kinematics) -> ClaimCase:
         frozen.example(),
     )
     return ClaimCase(proof, Mutation("u(0) outside the box", loose))
-
-
-def decrease(frozen: Frozen, name: str) -> Proof:
-    """The energy of (6) decreases, and bounds the distance to the optimum."""
-    statement = "(6) with W > 0 and frozen, feasible data settles at the optimum of (3)"
-    claim = frozen.claim(name, statement, frozen.margins)
-    terms = (frozen.decrease_terms(), frozen.bound_terms())
-    return Proof(claim, (projection(),), terms, RULES, frozen.example())

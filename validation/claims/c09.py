@@ -7,9 +7,8 @@ import casadi as ca
 from rrnn_opt.claim import Claim, Relation
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.symbolic import Symbol
-from rrnn_opt.validation.claims.c07 import decrease
 from rrnn_opt.verification import ClaimCase, Mutation, Repair
-from rrnn_opt.verification.energy import Frozen
+from rrnn_opt.verification.energy import Frozen, decrease
 from rrnn_opt.verification.vocabulary import Programme, stated
 
 

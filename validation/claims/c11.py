@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import casadi as ca
 
 from rrnn_opt.claim import Claim, Relation
+from rrnn_opt.decay import DecayClaim
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.verification import ClaimCase, Mutation, Repair
@@ -18,8 +21,8 @@ def case(kinematics: Kinematics) -> ClaimCase:
 
     The paper lets the network run on moving data and says nothing of how fast
     they may move; "slowly enough" is then a hypothesis in words, and nothing
-    can be decided.  The repaired statement is of a cell of J: with data that
-    stand still, one quadratic form decreases for every J in [1/2, 2].
+    can be decided.  The repaired statement is of a cell of J: one quadratic form
+    decreases for every J(t) in [1/2, 2], by a linear matrix inequality.
 
     Args:
         kinematics: not used; the statement is about any Jacobian.
@@ -40,27 +43,22 @@ def case(kinematics: Kinematics) -> ClaimCase:
         order="second-order",
         jacobian="moving",
     )
-    mended = _cell(u, lam, J)
-    mutation = Mutation("data that stand still, J in a cell", mended, holds=True)
+    mended = _cell()
+    mutation = Mutation("J in a cell, rd_dot = 0", mended, holds=True)
     return ClaimCase(printed, mutation, repaired=Repair(mended))
 
 
-def _cell(u: Symbol, lam: Symbol, J: Symbol) -> Claim:
-    """d/dt (x'Q x) <= -2 alpha x'Q x, alpha = 1/16, in the time unit epsilon."""
-    x = ca.vertcat(u.sx, lam.sx)
-    Q = ca.SX([[1, -0.25], [-0.25, 1]])
-    law = ca.vertcat(-u.sx + J.sx * lam.sx, -J.sx * u.sx)
-    rate = 2 * x.T @ Q @ law + x.T @ Q @ x / 8
-    return Claim(
+def _cell() -> DecayClaim:
+    """Z' = [[-1, J], [-J, 0]] z decays at 1/10, one quadratic function for the cell."""
+    ends = (Fraction(1, 2), Fraction(2))
+    return DecayClaim(
         id="C11",
         source="eq. (6)",
-        statement="for J in [1/2, 2] and data at rest x'Q x decays at the rate "
-        "1/8 /epsilon, one Q for the whole cell (W = 1/2, away from bounds)",
-        variables=(u, lam, J),
-        goal=Relation(rate, "<=0"),
-        hypotheses=(
-            added("A1", "J lies in [1/2, 2]", ca.vertcat(J.sx - 0.5, 2 - J.sx)),
-        ),
+        statement="while J(t) moves anywhere in [1/2, 2], however fast, (6) decays at "
+        "the rate 1/10 /epsilon towards rest (W = 1/2, rd_dot = 0)",
+        vertices=tuple(((Fraction(-1), J), (-J, Fraction(0))) for J in ends),
+        rate=Fraction(1, 10),
+        hypotheses=(added("A1", "J lies in [1/2, 2], no bound is active"),),
         order="second-order",
-        jacobian="frozen",
+        jacobian="moving",
     )

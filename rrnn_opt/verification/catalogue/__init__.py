@@ -2,24 +2,72 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from rrnn_opt.claim import Claim
+from rrnn_opt.decay import DecayClaim
 from rrnn_opt.formulation import Formulation
-from rrnn_opt.networks import Network
+from rrnn_opt.networks import Network, PrimalDual
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.verification.case import ClaimCase
-from rrnn_opt.verification.catalogue.motion import reduced_law_decreases
+from rrnn_opt.verification.catalogue.motion import (
+    clearance_is_kept,
+    limits_are_kept,
+    memory_stays_bounded,
+    projection_law,
+    reduced_law_decreases,
+)
+from rrnn_opt.verification.catalogue.optimum import equilibrium_is_optimum
+from rrnn_opt.verification.catalogue.rates import euler_step, exponential_rate
+from rrnn_opt.verification.composite import Proof
+from rrnn_opt.verification.energy import Frozen, decrease
 
-__all__ = ["claims", "reduced_law_decreases"]
+__all__ = [
+    "claims",
+    "clearance_is_kept",
+    "equilibrium_is_optimum",
+    "euler_step",
+    "exponential_rate",
+    "limits_are_kept",
+    "memory_stays_bounded",
+    "projection_law",
+    "reduced_law_decreases",
+]
 
 
-def claims(form: Formulation, network: Network, kin: Kinematics) -> list[ClaimCase]:
+def claims(
+    form: Formulation,
+    network: Network,
+    kin: Kinematics,
+    *,
+    contacts: Sequence[int] = (),
+) -> list[ClaimCase]:
     """What is claimed of a scheme, solved by a network, on a robot.
+
+    A claim that has no meaning for the scheme (no rows, no bounds, no contacts)
+    is left out.  Those about rest points and decay are of the network (6).
 
     Args:
         form: the scheme.
         network: the rule that solves it.
         kin: kinematics of the robot.
+        contacts: spheres of the scheme's contacts, where it has some.
     """
-    found = []
+    found: list[Claim | Proof | DecayClaim | None] = []
+    if isinstance(network, PrimalDual) and not network.whiten:
+        found += [equilibrium_is_optimum(form), _energy(form)]
+        found += [exponential_rate(form, kin), euler_step(form, network, kin)]
+    found.append(projection_law(form.decision.size) if form.qp.bounded else None)
     if form.name == "position_feedback":
-        found.append(ClaimCase(reduced_law_decreases(kin)))
-    return found
+        found.append(reduced_law_decreases(kin))
+    found += [limits_are_kept(form, kin), clearance_is_kept(form, kin, contacts)]
+    found.append(memory_stays_bounded())
+    return [ClaimCase(statement) for statement in found if statement is not None]
+
+
+def _energy(form: Formulation) -> Proof | None:
+    """V of (6) decreases for the scheme's numbers of joints and rows."""
+    rows = int(form.equalities.size1())
+    if rows == 0 or form.inequalities.size1():
+        return None
+    return decrease(Frozen.of(form.decision.size, rows), "energy_decreases")

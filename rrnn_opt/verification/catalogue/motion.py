@@ -1,20 +1,32 @@
-"""Claims that come with a formulation and its network, for any robot."""
+"""The joint limits, the first-order law, obstacle rows and the memory cell."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+from inspect import signature
+from math import isfinite
 
 import casadi as ca
 
 from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
+from rrnn_opt.formulation import Formulation
+from rrnn_opt.formulations import clearance_rows
 from rrnn_opt.formulations.limits import velocity_bounds
+from rrnn_opt.networks import MemoryCell
 from rrnn_opt.robot import Kinematics, Limits
 from rrnn_opt.symbolic import Symbol
-from rrnn_opt.verification.composite import Instance, Proof
-from rrnn_opt.verification.lemmas import clip, limits_hold_zero, projection
+from rrnn_opt.verification.composite import Given, Instance, Proof
+from rrnn_opt.verification.lemmas import (
+    clip,
+    limits_hold_zero,
+    nonexpansive,
+    projection,
+)
 
 GAINS = {"c1": 0.5, "c2": 0.5}
 """Of (10), 1/s; those of the paper."""
+NAGUMO = "Nagumo: a set that a Lipschitz field does not leave at its edge is kept"
 LASALLE = (
     "LaSalle in q: the box of limits is compact, so q' tends to 0 and q to the "
     "postures with J'e in the normal cone of Omega(q) at 0"
@@ -92,3 +104,138 @@ def _limits(q: Symbol, limits: Limits) -> Range:
         return tuple(Fraction(x) if abs(x) < float("inf") else None for x in bounds)
 
     return Range(q.name, exact(limits.lower.tolist()), exact(limits.upper.tolist()))
+
+
+def limits_are_kept(form: Formulation, kin: Kinematics) -> Proof | None:
+    """The bounds of a scheme hold 0 and lie within (10), q inside its limits.
+
+        -c (q - q-) <= lower <= 0 <= upper <= c (q+ - q)
+
+    so that q' in the box cannot cross a limit.
+
+    Args:
+        form: a scheme in joint velocities whose parameters hold q.
+        kin: kinematics of the robot.
+
+    Returns:
+        The proof; None for a scheme without such bounds.
+    """
+    limits, n = kin.robot.limits, kin.robot.nv
+    q = next((p for p in form.parameters if p.name == "q"), None)
+    if q is None or form.level != "velocity" or not ca.depends_on(form.lower, q.sx):
+        return None
+    low, high = form.lower[:n], form.upper[:n]
+    rows = [-low, high]
+    for i in range(n):
+        above = q.sx[i] - float(limits.lower[i])
+        below = float(limits.upper[i]) - q.sx[i]
+        rows += [low[i] + GAINS["c1"] * above] if isfinite(limits.lower[i]) else []
+        rows += [GAINS["c2"] * below - high[i]] if isfinite(limits.upper[i]) else []
+    others = [
+        p
+        for p in form.parameters
+        if p is not q and ca.depends_on(ca.vertcat(*rows), p.sx)
+    ]
+    claim = Claim(
+        id="limits_are_kept",
+        source="eq. (10)",
+        statement=f"the bounds of {form.name} hold 0 and keep the joint limits",
+        variables=(q, *others),
+        goal=Relation(ca.vertcat(*rows), ">=0"),
+        hypotheses=(Hypothesis("A1", "q(0) lies within the limits", added=True),),
+        domain=(_limits(q, limits),),
+        order="first-order",
+    )
+    return Proof(claim, (claim,), (), (NAGUMO,))
+
+
+def clearance_is_kept(
+    form: Formulation, kin: Kinematics, contacts: Sequence[int]
+) -> Proof | None:
+    """The rows of ``clearance_rows`` bound how fast a clearance shrinks.
+
+        n'd/dt centre(q) + gamma (d - d_safe) >= 0
+
+    with the velocity of the sphere's centre differentiated automatically.
+
+    Args:
+        form: made by ``clearance_rows`` with its own gamma and d_safe.
+        kin: kinematics of the robot.
+        contacts: index of the sphere in each contact.
+    """
+    if form.name != "clearance_rows" or not contacts:
+        return None
+    known = {p.name: p for p in form.parameters}
+    q, n, d = known["q"], known["normals"], known["clearances"]
+    centres = kin.sphere_centres()
+    rates = [
+        ca.dot(n.sx[:, k], ca.jtimes(centres[:, c], q.sx, form.decision.sx))
+        for k, c in enumerate(contacts)
+    ]
+    settings = signature(clearance_rows).parameters
+    gamma, safe = (settings[name].default for name in ("gamma", "safe"))
+    claim = Claim(
+        id="clearance_is_kept",
+        source="eq. (11)-(12), repaired",
+        statement="d' >= -gamma (d - d_safe) for every contact",
+        variables=(form.decision, q, n, d),
+        goal=Relation(ca.vertcat(*rates) + gamma * (d.sx - safe), ">=0"),
+        hypotheses=(
+            Hypothesis("H1", "the rows hold", Relation(form.inequalities, "<=0")),
+            Hypothesis("A1", "obstacles stand still, normals are theirs", added=True),
+        ),
+        order="first-order",
+        jacobian="moving",
+    )
+    terms = tuple((Given(0, k),) for k in range(len(contacts)))
+    return Proof(claim, (), terms, (NAGUMO,))
+
+
+def memory_stays_bounded(cell: MemoryCell | None = None) -> Proof:
+    """The activity of the memory cell (14) stays in [0, 1] for inputs I >= 0.
+
+    Args:
+        cell: that of the planner by default.
+    """
+    cell = cell or MemoryCell()
+    stimulus = Symbol.scalar("I", "1", "input")
+    ends = (cell.derivative(ca.SX(x), stimulus.sx) for x in (0.0, 1.0))
+    at_zero, at_one = ends
+    claim = Claim(
+        id="memory_stays_bounded",
+        source="eq. (14)",
+        statement="x' >= 0 at x = 0 and x' <= 0 at x = 1 for the planner's cell",
+        variables=(stimulus,),
+        goal=Relation(ca.vertcat(at_zero, -at_one), ">=0"),
+        domain=(_positive(stimulus),),
+        order="first-order",
+    )
+    return Proof(claim, (claim,), (), (NAGUMO,))
+
+
+def projection_law(n: int) -> Proof:
+    """|P(x) - P(y)|^2 <= (x - y)'(P(x) - P(y)) for a box of n sides.
+
+    The projection is firmly nonexpansive, which no network would settle without.
+
+    Args:
+        n: number of joints.
+    """
+    x, y = Symbol.vector("x", n), Symbol.vector("y", n)
+    low, high = Symbol.vector("low", n), Symbol.vector("high", n)
+    px, py = (clip(z.sx, low.sx, high.sx) for z in (x, y))
+    ordered = Relation(high.sx - low.sx, ">=0")
+    claim = Claim(
+        id="projection_law",
+        source="eq. (9)",
+        statement=f"the projection of {n} joints is firmly nonexpansive",
+        variables=(x, y, low, high),
+        goal=Relation(ca.dot(x.sx - y.sx, px - py) - ca.dot(px - py, px - py), ">=0"),
+        hypotheses=(Hypothesis("H1", "the box is not empty", ordered),),
+    )
+    terms = tuple(
+        Instance(0, {"x": x.sx[i], "y": y.sx[i], "low": low.sx[i], "high": high.sx[i]})
+        for i in range(n)
+    )
+    example = {"x": [0] * n, "y": [0] * n, "low": [-1] * n, "high": [1] * n}
+    return Proof(claim, (nonexpansive(),), (terms,), (), example)
