@@ -11,7 +11,7 @@ from rrnn_opt.claim import Claim
 Array = NDArray[np.float64]
 
 _WIDTH = 4.0  # half the spread of a variable without bounds
-_MARGIN = 1e-7  # by which a strict hypothesis should be kept
+_MARGIN = 1e-7  # by which a search keeps hypotheses, so that rounding does too
 
 
 class Breach:
@@ -84,18 +84,17 @@ class Breach:
 
 
 def _slack(values: ca.SX, sense: str) -> ca.SX:
-    """At least 0 where a relation that is no equation is kept."""
+    """At least 0 where a relation that is no equation is kept, and clearly."""
     if sense == "==0":
         return ca.SX(0, 1)
     turned = values if sense[0] == ">" else -values
-    return turned - (_MARGIN if "=" not in sense else 0.0)
+    return turned - _MARGIN
 
 
 def _breach(values: Array, sense: str) -> float:
     if sense == "==0":
         return float(np.max(np.abs(values)))
-    worst = float(np.max(-values if sense in (">=0", ">0") else values))
-    return worst
+    return float(np.max(-values if sense in (">=0", ">0") else values))
 
 
 def _box(claim: Claim) -> tuple[Array, Array]:

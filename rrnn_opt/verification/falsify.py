@@ -55,7 +55,7 @@ def propose(claim: Claim, *, budget_s: float, seed: int) -> Iterator[dict[str, A
 
 
 def candidates(
-    claim: Claim, *, seed: int = 0, samples: int = 128, starts: int = 4
+    claim: Claim, *, seed: int = 0, samples: int = 128, starts: int = 8
 ) -> Iterator[Point]:
     """Points in the domain that break the goal in floating point.
 

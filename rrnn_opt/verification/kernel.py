@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 _NOTHING = 1e-4  # eigenvalues below this share of the largest count as 0
-_SIZE = 64  # largest denominator of a kernel's entries
-_MISS = 1e-3
+_SIZE = 32  # largest denominator of a kernel's entries
+_MISS = 2e-4
 
 
 def complement(gram: Array) -> list[list[fmpq]] | None:

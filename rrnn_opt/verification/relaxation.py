@@ -124,24 +124,50 @@ def _relevant(setting: Semialgebraic, target: Polynomial) -> tuple[int, ...]:
     return tuple(sorted(known))
 
 
+def _components(setting: Semialgebraic) -> dict[int, int]:
+    """A number for every set of generators that laws tie together."""
+    component: dict[int, int] = {}
+    for p in (*setting.inequalities, *setting.equalities):
+        tied = _generators(p)
+        old = {component[g] for g in tied if g in component}
+        new = min(old | tied, default=0)
+        component.update({g: new for g, c in component.items() if c in old})
+        component.update(dict.fromkeys(tied, new))
+    return component
+
+
 def _products(
     setting: Semialgebraic, inside: Sequence[tuple[int, Polynomial]], degree: int
 ) -> Iterator[tuple[tuple[int, ...], Polynomial]]:
-    """1, the inequalities, and products of two of them that share a generator."""
+    """1, the inequalities, and products of two or three that laws tie together."""
     yield (), setting.forms.ring.constant(1)
     for k, g in inside:
         if g.total_degree() <= degree:
             yield (k,), g
-    crowded = len(inside) > 40
-    for (j, f), (k, g) in itertools.combinations_with_replacement(inside, 2):
+    component = _components(setting)
+    groups: dict[int, list[tuple[int, Polynomial]]] = {}
+    for k, g in inside:
+        tied = _generators(g)
+        if tied:
+            groups.setdefault(component[min(tied)], []).append((k, g))
+    for group in groups.values():
+        yield from _tuples(setting, group, degree)
+
+
+def _tuples(
+    setting: Semialgebraic, group: Sequence[tuple[int, Polynomial]], degree: int
+) -> Iterator[tuple[tuple[int, ...], Polynomial]]:
+    circles = setting.forms.circles
+    crowded = len(group) > 40
+    for (j, f), (k, g) in itertools.combinations_with_replacement(group, 2):
         near = not crowded or _generators(f) & _generators(g)
         if near and f.total_degree() + g.total_degree() <= degree:
-            yield (j, k), remainder(f * g, setting.forms.circles)
-    if degree > 2 and len(inside) <= 12:
-        for triple in itertools.combinations_with_replacement(inside, 3):
+            yield (j, k), remainder(f * g, circles)
+    if degree > 2 and len(group) <= 12:
+        for triple in itertools.combinations_with_replacement(group, 3):
             if sum(g.total_degree() for _, g in triple) <= degree:
                 (i, e), (j, f), (k, g) = triple
-                yield (i, j, k), remainder(e * f * g, setting.forms.circles)
+                yield (i, j, k), remainder(e * f * g, circles)
 
 
 def _monomials(
