@@ -2,7 +2,6 @@ import json
 import os
 import subprocess
 import sys
-import time
 
 import pytest
 
@@ -11,14 +10,11 @@ from rrnn_opt.cli.main import COMMANDS, main
 HEAVY = ("numpy", "casadi", "matplotlib", "pinocchio", "scipy")
 
 
-def test_help_is_quick_and_loads_no_numerical_library(rrnn):
-    begin = time.perf_counter()
+def test_help_loads_no_numerical_library(rrnn):
     shown = rrnn("--help")
-    seconds = time.perf_counter() - begin
     assert shown.returncode == 0
     for name in COMMANDS:
         assert f"    {name} " in shown.stdout
-    assert seconds < 3.0  # 0.1-0.3 s on an idle machine
     code = (
         "import sys, rrnn_opt.cli.main as m; m.parser().format_help();"
         f"sys.exit(any(name in sys.modules for name in {HEAVY}))"
