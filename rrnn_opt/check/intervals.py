@@ -2,9 +2,10 @@
 
 An interval [a, b] is held as the rows (-a, b) of an array (2, B), so that both
 ends are rounded the same way: upwards.  ``+ - * /`` and sqrt give the nearest
-double r of the exact x (IEEE 754), hence |x - r| <= 2^-53 |r| unless r is
-subnormal, and ``r + (2^-52 |r| + 1e-290)`` is no less than x even after its own
-rounding, r + 2^-52 |r| being no less than r's upper neighbour.  What is not
+double r of the exact x (IEEE 754), hence |x - r| <= 2^-53 |r| unless r underflows,
+and ``r + 2^-52 |r|`` is no less than x even after its own rounding, being no less
+than r's upper neighbour.  Sums and roots do not underflow (a subnormal sum is
+exact); products and inverses that may do so get 1e-290 on top.  What is not
 defined somewhere in a box is NaN, and NaN stays NaN.
 """
 
@@ -22,7 +23,7 @@ Interval = Array
 """(2, B): minus the lower ends, and the upper ends."""
 
 LARGEST_ANGLE = 1e5
-_U, _TINY = 2.0**-52, 1e-290
+_U, _TINY, _SMALL = 2.0**-52, 1e-290, 1e-250
 _SLACK = 1e-9  # turns; far more than the error of an angle in turns
 
 
@@ -39,9 +40,24 @@ def constant(value: float) -> Interval:
 def _up(x: Array) -> Array:
     e = np.abs(x)
     e *= _U
-    e += _TINY
     e += x
     return e
+
+
+def _up_product(x: Array, a: Interval, b: Interval) -> Array:
+    """As :func:`_up` for products of ends of a and b, which may underflow."""
+    small = np.abs(x) < _SMALL
+    if np.any(small):
+        safe = _smallest(a) * _smallest(b) > _SMALL
+        x = _up(x) + np.where(small & ~safe, _TINY, 0.0)
+        return x
+    return _up(x)
+
+
+def _smallest(a: Interval) -> Array:
+    """Least absolute value of an end that is not 0."""
+    smallest: Array = np.min(np.where(a == 0.0, np.inf, np.abs(a)), axis=0)
+    return smallest
 
 
 def add(a: Interval, b: Interval) -> Interval:
@@ -69,7 +85,7 @@ def mul(a: Interval, b: Interval) -> Interval:
     nn, nh, hn, hh = a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]
     up = np.maximum(np.maximum(nn, hh), -np.minimum(nh, hn))
     down = np.maximum(np.maximum(nh, hn), -np.minimum(nn, hh))
-    return _up(np.stack([down, up]))
+    return _up_product(np.stack([down, up]), a, b)
 
 
 def least(a: Interval) -> Array:
@@ -81,7 +97,7 @@ def least(a: Interval) -> Array:
 def sq(a: Interval) -> Interval:
     """Square."""
     most, low = np.maximum(a[0], a[1]), least(a)
-    return _up(np.stack([-low * low, most * most]))
+    return _up_product(np.stack([-low * low, most * most]), a, a)
 
 
 def fabs(a: Interval) -> Interval:
@@ -93,7 +109,7 @@ def inv(a: Interval) -> Interval:
     """1 / a; NaN where a may be 0."""
     apart = (a[0] < 0) | (a[1] < 0)
     safe = np.where(apart, a, np.nan)
-    return _up(-1.0 / safe[::-1])
+    return _up(-1.0 / safe[::-1]) + _TINY
 
 
 def div(a: Interval, b: Interval) -> Interval:
