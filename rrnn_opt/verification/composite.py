@@ -98,11 +98,15 @@ class Proof:
         """Settle the lemmas, then let the checker judge the whole.
 
         Returns:
-            The verdict; UNKNOWN names the lemma or the step that failed.
+            The verdict; UNKNOWN names the lemma or the step that failed.  A
+            lemma that is the claim itself may refute it.
         """
         begin = time.perf_counter()
         fingerprint = self.claim.fingerprint
         verdicts = [self._part(lemma, seed) for lemma in self.lemmas]
+        for lemma, verdict in zip(self.lemmas, verdicts, strict=True):
+            if lemma is self.claim and verdict.status == "REFUTED":
+                return verdict
         missing = [
             f"lemma '{_claim(lemma).id}': {verdict.status}, {verdict.reason}"
             for lemma, verdict in zip(self.lemmas, verdicts, strict=True)

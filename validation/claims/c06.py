@@ -51,7 +51,7 @@ def case(kinematics: Kinematics) -> ClaimCase:
         ("a convex programme with linear constraints has multipliers (duality)",),
         _still(p),
     )
-    return ClaimCase(proof, Mutation("sign of lambda flipped", _flipped(p, y, claim)))
+    return ClaimCase(proof, Mutation("(3b) not asked of u", _unfed()))
 
 
 def _terms(p: Programme, y: ca.SX) -> tuple[Instance | Given, ...]:
@@ -81,20 +81,20 @@ def _still(p: Programme) -> dict[str, list[int]]:
     return point | {"low": [-1] * JOINTS, "high": [1] * JOINTS}
 
 
-def _flipped(p: Programme, y: Symbol, claim: Claim) -> Proof:
-    """The same proof for a network that adds J'lam to the gradient."""
-    u, lam = p.u.sx, p.lam.sx
-    wrong = clip_of(p, u - p.gradient(u, -lam)) - u
-    hypotheses = (stated("H1", "u solves (5) with -lam", wrong, "==0"),)
-    variant = Claim(
-        "C6", "eq. (5)", "the same with +J'lam", claim.variables,
-        claim.goal, hypotheses + claim.hypotheses[1:4],
-    )  # fmt: skip
-    return Proof(variant, (projection(),), (_terms(p, y.sx),), (), _still(p))
-
-
-def clip_of(p: Programme, x: ca.SX) -> ca.SX:
-    """The projection on the programme's box."""
-    from rrnn_opt.verification.lemmas import clip
-
-    return clip(x, p.low.sx, p.high.sx)
+def _unfed() -> Claim:
+    """One joint and one row, without asking that u satisfies it."""
+    p, y = Programme.of(1, 1), Symbol.vector("y", 1)
+    rest = p.projected(p.u.sx, p.lam.sx) - p.u.sx
+    return Claim(
+        id="C6",
+        source="eq. (5)",
+        statement="the first line of (5) alone makes an optimum",
+        variables=(*p.symbols, y),
+        goal=Relation(p.cost(y.sx) - p.cost(p.u.sx), ">=0"),
+        hypotheses=(
+            stated("H1", "u solves the first line of (5)", rest, "==0"),
+            stated("H3", "y satisfies (3b)", p.rows(y.sx), "==0"),
+            stated("H4", "y satisfies (3c)", p.inside(y.sx)),
+            added("A1", "W is positive definite", p.w.sx, ">0"),
+        ),
+    )

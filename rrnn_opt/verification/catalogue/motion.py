@@ -142,11 +142,10 @@ def limits_are_kept(form: Formulation, kin: Kinematics) -> Proof | None:
         statement=f"the bounds of {form.name} hold 0 and keep the joint limits",
         variables=(q, *others),
         goal=Relation(ca.vertcat(*rows), ">=0"),
-        hypotheses=(Hypothesis("A1", "q(0) lies within the limits", added=True),),
         domain=(_limits(q, limits),),
         order="first-order",
     )
-    return Proof(claim, (claim,), (), (NAGUMO,))
+    return Proof(claim, (claim,), (), (f"{NAGUMO}; q(0) lies within the limits",))
 
 
 def clearance_is_kept(
