@@ -11,6 +11,10 @@ matrices without a negative eigenvalue, m_k any polynomials.  A margin is > 0
 for a strict goal, else 0.  For an equation p = 0 there are no squares, or the
 identity is that of -p^2.
 
+Instead of an identity there may be ``{"split": s, "cases": [proof, proof]}``: the
+two cases of atom s, each with one more equation and inequality at the end of the
+lists.
+
 Payload: ``{"elements": [{"margin": "1/2",
 "squares": [{"factors": [0, 3], "basis": [P, ..], "gram": [["1/2", ..], ..]}],
 "multipliers": [{"equality": 0, "polynomial": P}]}]}`` with polynomials P written
@@ -32,6 +36,7 @@ from rrnn_opt.errors import DocumentError, UndecidedError
 
 MAX_BASIS = 400
 MAX_EXPONENT = 64
+MAX_DEPTH = 16
 
 
 def judge(graph: ClaimGraph, payload: Any, document: Any) -> Answer:
@@ -54,7 +59,16 @@ def judge(graph: ClaimGraph, payload: Any, document: Any) -> Answer:
     return Answer("PROVED", reason, "exact", undefined(setting.forms.partial))
 
 
-def _require(setting: Semialgebraic, goal: Polynomial, proof: Any, k: int) -> None:
+def _require(
+    setting: Semialgebraic, goal: Polynomial, proof: Any, k: int, depth: int = 0
+) -> None:
+    if "split" in proof:
+        split = _index(proof["split"], len(setting.splits))
+        if len(proof["cases"]) != 2 or depth >= MAX_DEPTH:
+            raise ValueError("a split has two cases, and there are not too many")
+        for case, part in enumerate(proof["cases"]):
+            _require(setting.assuming(split, case), goal, part, k, depth + 1)
+        return
     target, strict = _target(setting.sense, goal, bool(proof["squares"]))
     margin = _rational(proof["margin"])
     if margin < 0 or (strict and margin == 0):

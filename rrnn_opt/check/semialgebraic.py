@@ -14,6 +14,13 @@ of an atom t, whatever its operands are::
     t = not a, a and b, a or b, if_else_zero(a, b), for a, b of 0 or 1:
                        t = 1 - a, a b, a + b - a b, a b
 
+An atom also splits into two cases, at least one of which holds::
+
+    fmin(a, b):  t = a, b - a >= 0    or   t = b, a - b >= 0
+    fmax(a, b):  t = a, a - b >= 0    or   t = b, b - a >= 0
+    fabs(a):     t = a, a >= 0        or   t = -a, -a >= 0
+    a <= b:      t = 1, b - a >= 0    or   t = 0, a - b >= 0
+
 Of angles known as a sum, a = b + c, the addition theorems are equations.
 """
 
@@ -21,7 +28,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from flint import fmpq
 
@@ -30,6 +37,9 @@ from rrnn_opt.check.polynomial import NormalForms, Polynomial, normal_forms
 
 MAX_ANGLES = 12
 """Of more angles than these, no sums are looked for."""
+
+
+Case = tuple[Polynomial, Polynomial]
 
 
 @dataclass(frozen=True)
@@ -42,6 +52,7 @@ class Semialgebraic:
         inequalities: each is >= 0 wherever domain and hypotheses are kept.
         equalities: each is 0 there.
         forms: ring, circles and partial operations.
+        splits: two cases (equation, inequality) of every atom that has cases.
     """
 
     goals: tuple[Polynomial, ...]
@@ -49,6 +60,16 @@ class Semialgebraic:
     inequalities: tuple[Polynomial, ...]
     equalities: tuple[Polynomial, ...]
     forms: NormalForms
+    splits: tuple[tuple[Case, Case], ...]
+
+    def assuming(self, split: int, case: int) -> Semialgebraic:
+        """The same with one case's equation and inequality appended."""
+        equation, inequality = self.splits[split][case]
+        return replace(
+            self,
+            equalities=(*self.equalities, equation),
+            inequalities=(*self.inequalities, inequality),
+        )
 
 
 def semialgebraic(graph: ClaimGraph) -> Semialgebraic:
@@ -70,7 +91,12 @@ def semialgebraic(graph: ClaimGraph) -> Semialgebraic:
     above = [p if sign == "+" else -p for sign, p in known if sign != "="]
     equal = [p for sign, p in known if sign == "="]
     return Semialgebraic(
-        tuple(rows[0]), graph.senses[0], tuple(above), tuple(equal), forms
+        tuple(rows[0]),
+        graph.senses[0],
+        tuple(above),
+        tuple(equal),
+        forms,
+        tuple(_CASES[op](t, *args) for op, args, t in forms.atoms if op in _CASES),
     )
 
 
@@ -149,6 +175,13 @@ _LOGIC: dict[str, Callable[..., Polynomial]] = {
     "and": lambda a, b: a * b,
     "or": lambda a, b: a + b - a * b,
     "if_else_zero": lambda a, b: a * b,
+}
+_CASES: dict[str, Callable[..., tuple[Case, Case]]] = {
+    "fmin": lambda t, a, b: ((t - a, b - a), (t - b, a - b)),
+    "fmax": lambda t, a, b: ((t - a, a - b), (t - b, b - a)),
+    "fabs": lambda t, a: ((t - a, a), (t + a, -a)),
+    "le": lambda t, a, b: ((t - 1, b - a), (t, a - b)),
+    "lt": lambda t, a, b: ((t - 1, b - a), (t, a - b)),
 }
 _TRUTHS = {"not": 1, "and": 2, "or": 2, "if_else_zero": 1}
 _BOOLEAN = frozenset({"le", "lt", "eq", "ne", "not", "and", "or"})

@@ -3,8 +3,10 @@
 Multiples >= 0 of products of the inequalities, of squares m^2 and (m + n)^2,
 (m - n)^2 of monomials, and any multiples of the equations must sum to the goal.
 A vertex of the linear programme says which parts take part; their coefficients
-are then solved for in rational numbers (Handelman, Pac. J. Math. 132 (1988);
-Ahmadi and Majumdar, SIAM J. Appl. Algebra Geometry 3 (2019)).
+are then solved for in rational numbers; where there is no such sum, the cases of a
+minimum, maximum, absolute value or comparison are tried one by one.  Sources:
+Handelman, Pac. J. Math. 132 (1988) 35-62; Ahmadi and Majumdar, SIAM J. Appl.
+Algebra Geometry 3 (2019) 193-230.
 """
 
 from __future__ import annotations
@@ -26,11 +28,20 @@ from rrnn_opt.check.semialgebraic import Semialgebraic, semialgebraic
 from rrnn_opt.claim import Claim
 from rrnn_opt.errors import UndecidedError
 from rrnn_opt.verification.document import certificate_document, claim_block
-from rrnn_opt.verification.relaxation import Relaxation, relaxation, sparse, written
+from rrnn_opt.verification.relaxation import (
+    Relaxation,
+    generators_of,
+    relaxation,
+    relevant,
+    sparse,
+    written,
+)
 
 MAX_SQUARES = 24
 """Monomials that enter as squares of sums."""
 MAX_DEGREE = 6
+MAX_SPLITS = 5
+"""Atoms that are taken apart into cases, one inside the other."""
 _ZERO = 1e-9
 
 
@@ -52,6 +63,41 @@ def propose(claim: Claim, *, budget_s: float, seed: int) -> Iterator[dict[str, A
 
 
 def _proof(
+    setting: Semialgebraic, goal: Polynomial, end: float, splits: Sequence[int] = ()
+) -> dict[str, Any] | None:
+    """An identity, or two cases of an atom with one each, or None."""
+    found = _identity(setting, goal, end)
+    if found is not None or setting.sense == "==0":
+        return found
+    split = _next_split(setting, goal, splits)
+    if split is None:
+        return None
+    cases = []
+    for case in (0, 1):
+        assumed = setting.assuming(split, case)
+        part = _proof(assumed, goal, end, (*splits, split))
+        if part is None:
+            return None  # another order of the atoms is not tried
+        cases.append(part)
+    return {"split": split, "cases": cases}
+
+
+def _next_split(
+    setting: Semialgebraic, goal: Polynomial, splits: Sequence[int]
+) -> int | None:
+    """The outermost atom that matters and is not yet split."""
+    if len(splits) >= MAX_SPLITS:
+        return None
+    known = set(relevant(setting, goal))
+    atoms = [
+        k
+        for k, (case, _) in enumerate(setting.splits)
+        if k not in splits and generators_of(case[0]) <= known
+    ]
+    return atoms[-1] if atoms else None
+
+
+def _identity(
     setting: Semialgebraic, goal: Polynomial, end: float
 ) -> dict[str, Any] | None:
     target = goal if setting.sense[0] in "=>" else -goal

@@ -63,17 +63,17 @@ def relaxation(
     Raises:
         UndecidedError: there are too many.
     """
-    generators = _relevant(setting, target)
+    generators = relevant(setting, target)
     inside = [
         (k, g)
         for k, g in enumerate(setting.inequalities)
-        if g != 0 and _generators(g) <= set(generators)
+        if g != 0 and generators_of(g) <= set(generators)
     ]
-    products = list(_products(setting, inside, degree))
+    products = list(_products(setting, target, inside, degree))
     multipliers = [
         (k, monomial)
         for k, h in enumerate(setting.equalities)
-        if h != 0 and _generators(h) <= set(generators)
+        if h != 0 and generators_of(h) <= set(generators)
         for monomial in _monomials(setting, generators, degree - h.total_degree())
     ]
     if len(products) + len(multipliers) > MAX_PARTS:
@@ -106,15 +106,16 @@ def written(p: Polynomial) -> list[Any]:
     return [[str(c), [list(power) for power in m]] for m, c in sparse(p).items()]
 
 
-def _generators(p: Polynomial) -> set[int]:
+def generators_of(p: Polynomial) -> set[int]:
+    """Numbers of the generators that occur in a polynomial."""
     return {g for g, degree in enumerate(p.degrees()) if degree > 0}
 
 
-def _relevant(setting: Semialgebraic, target: Polynomial) -> tuple[int, ...]:
+def relevant(setting: Semialgebraic, target: Polynomial) -> tuple[int, ...]:
     """Generators of the target, and of all that is said of them, repeatedly."""
-    known = _generators(target)
-    sets = [_generators(p) for p in (*setting.inequalities, *setting.equalities)]
-    sets += [_generators(circle) for _, circle in setting.forms.circles]
+    known = generators_of(target)
+    sets = [generators_of(p) for p in (*setting.inequalities, *setting.equalities)]
+    sets += [generators_of(circle) for _, circle in setting.forms.circles]
     size = -1
     while size != len(known):
         size = len(known)
@@ -124,11 +125,11 @@ def _relevant(setting: Semialgebraic, target: Polynomial) -> tuple[int, ...]:
     return tuple(sorted(known))
 
 
-def _components(setting: Semialgebraic) -> dict[int, int]:
-    """A number for every set of generators that laws tie together."""
+def _components(setting: Semialgebraic, target: Polynomial) -> dict[int, int]:
+    """A number for every set of generators that laws or terms tie together."""
     component: dict[int, int] = {}
-    for p in (*setting.inequalities, *setting.equalities):
-        tied = _generators(p)
+    laws = [generators_of(p) for p in (*setting.inequalities, *setting.equalities)]
+    for tied in laws + [{g for g, _ in monomial} for monomial in sparse(target)]:
         old = {component[g] for g in tied if g in component}
         new = min(old | tied, default=0)
         component.update({g: new for g, c in component.items() if c in old})
@@ -137,17 +138,20 @@ def _components(setting: Semialgebraic) -> dict[int, int]:
 
 
 def _products(
-    setting: Semialgebraic, inside: Sequence[tuple[int, Polynomial]], degree: int
+    setting: Semialgebraic,
+    target: Polynomial,
+    inside: Sequence[tuple[int, Polynomial]],
+    degree: int,
 ) -> Iterator[tuple[tuple[int, ...], Polynomial]]:
-    """1, the inequalities, and products of two or three that laws tie together."""
+    """1, the inequalities, and products of two or three that belong together."""
     yield (), setting.forms.ring.constant(1)
     for k, g in inside:
         if g.total_degree() <= degree:
             yield (k,), g
-    component = _components(setting)
+    component = _components(setting, target)
     groups: dict[int, list[tuple[int, Polynomial]]] = {}
     for k, g in inside:
-        tied = _generators(g)
+        tied = generators_of(g)
         if tied:
             groups.setdefault(component[min(tied)], []).append((k, g))
     for group in groups.values():
@@ -157,17 +161,22 @@ def _products(
 def _tuples(
     setting: Semialgebraic, group: Sequence[tuple[int, Polynomial]], degree: int
 ) -> Iterator[tuple[tuple[int, ...], Polynomial]]:
-    circles = setting.forms.circles
-    crowded = len(group) > 40
-    for (j, f), (k, g) in itertools.combinations_with_replacement(group, 2):
-        near = not crowded or _generators(f) & _generators(g)
-        if near and f.total_degree() + g.total_degree() <= degree:
-            yield (j, k), remainder(f * g, circles)
-    if degree > 2 and len(group) <= 12:
-        for triple in itertools.combinations_with_replacement(group, 3):
-            if sum(g.total_degree() for _, g in triple) <= degree:
-                (i, e), (j, f), (k, g) = triple
-                yield (i, j, k), remainder(e * f * g, circles)
+    crowded = len(group) > _FEW[2]
+    for count in (n for n in _FEW if n == 2 or len(group) <= _FEW[n]):
+        for chosen in itertools.combinations_with_replacement(group, count):
+            factors = [g for _, g in chosen]
+            if sum(g.total_degree() for g in factors) > degree:
+                continue
+            near = not crowded or generators_of(factors[0]) & generators_of(factors[1])
+            if near:
+                product = factors[0]
+                for g in factors[1:]:
+                    product = remainder(product * g, setting.forms.circles)
+                yield tuple(k for k, _ in chosen), product
+
+
+_FEW = {2: 40, 3: 20, 4: 10}
+"""Of more inequalities, fewer products of so many factors are made."""
 
 
 def _monomials(

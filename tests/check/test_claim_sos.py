@@ -76,6 +76,27 @@ def test_equations_need_no_squares_or_their_own():
     assert check(x**2, "==0", proof(square([["1"]], [THIS]))).status == "UNKNOWN"
 
 
+def test_two_cases_of_an_atom():
+    larger = ca.fmax(x, -x)  # generator 1
+
+    def half(factors, equality=2):
+        term = {"equality": equality, "polynomial": ONE}
+        return proof(square([["1/2"]], [ONE], factors), multipliers=[term])
+
+    # t = (t - x) + 2x/2 where 2x >= 0, and t = (t + x) - 2x/2 where -2x >= 0
+    both = {"split": 0, "cases": [half([2], 1), half([2], 1)]}
+    assert check(larger, ">=0", both).status == "PROVED", check(larger, ">=0", both)
+    twice = {"split": 0, "cases": [half([2], 1), half([1], 1)]}
+    assert check(larger, ">=0", twice).status == "UNKNOWN"
+    for broken in (
+        {"split": 1, "cases": both["cases"]},
+        {"split": 0, "cases": both["cases"][:1]},
+        {"split": 0, "cases": [both, both["cases"][1]] * 9},
+    ):
+        with pytest.raises(DocumentError):
+            check(larger, ">=0", broken)
+
+
 def test_every_element_needs_its_own():
     one = proof(square([["1"]], [THIS]))
     assert check(ca.vertcat(x**2, x**2), ">=0", one, one).status == "PROVED"

@@ -57,6 +57,37 @@ def test_the_projection_lemma_of_any_number_of_joints_is_exact(size):
     assert settled(wider, "products").status == "UNKNOWN"
 
 
+NAMES = ("q", "low", "high", "c", "v_low", "v_high", "u", "h")
+Q, LOW, HIGH, C, V_LOW, V_HIGH, U, H = PARTS = tuple(map(Symbol.scalar, NAMES))
+BELOW = [(n, "", Relation(e, ">=0")) for n, e in (
+    ("A1", Q.sx - LOW.sx), ("A2", HIGH.sx - Q.sx), ("A3", C.sx), ("A4", H.sx),
+    ("A5", -V_LOW.sx), ("A6", V_HIGH.sx),
+)]  # fmt: skip
+LOWER = ca.fmax(C.sx * (LOW.sx - Q.sx), V_LOW.sx)
+UPPER = ca.fmin(C.sx * (HIGH.sx - Q.sx), V_HIGH.sx)
+STEPPED = Q.sx + H.sx * ca.fmin(ca.fmax(U.sx, LOWER), UPPER)
+
+
+@pytest.mark.parametrize(
+    ("goal", "step", "status"),
+    [
+        (ca.vertcat(UPPER - LOWER, UPPER, -LOWER), 1, "PROVED"),  # (10) holds 0
+        (ca.vertcat(HIGH.sx - STEPPED, STEPPED - LOW.sx), 1, "PROVED"),
+        (ca.vertcat(HIGH.sx - STEPPED, STEPPED - LOW.sx), 1.25, "UNKNOWN"),
+    ],
+)
+def test_limits_of_a_joint_by_cases(goal, step, status):
+    """Velocity bounds (10), and a joint stays within limits iff h c <= 1."""
+    given_ = tuple(Hypothesis(*row) for row in BELOW)
+    short = Hypothesis("A7", "short steps", Relation(step - H.sx * C.sx, ">=0"))
+    stated = claim(goal, ">=0", PARTS, hypotheses=(*given_, short))
+    verdict = settled(stated, "products")
+    assert verdict.status == status
+    assert verdict.trust == ("exact" if status == "PROVED" else None)
+    if status == "UNKNOWN":
+        assert certify(stated, engines=("falsifier", "smt")).status == "REFUTED"
+
+
 @pytest.mark.parametrize(
     ("expression", "sense", "engine", "status"),
     [
