@@ -8,7 +8,14 @@ import sys
 
 from benchmarks.record import Benchmark
 
-NAMES = ("kinematics", "control_step", "planning", "whitening", "simulation")
+NAMES = (
+    "kinematics",
+    "control_step",
+    "planning",
+    "whitening",
+    "simulation",
+    "intervals",
+)
 
 
 def main() -> int:

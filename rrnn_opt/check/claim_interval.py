@@ -25,7 +25,7 @@ from rrnn_opt.check.interval_tree import Leaves, halves, leaves, read_tree
 from rrnn_opt.check.intervals import Array
 from rrnn_opt.errors import UndecidedError
 
-FEW, SHARE = 200, 0.01
+FEW, SHARE = 100, 0.01
 DEEPEST = 8
 PRECISION = 64
 _BLOCK = 2048
@@ -150,15 +150,19 @@ class _Statement:
         known = interval_graph.values(graph, on, box)
         at = interval_graph.values(graph, on, point)
         undefined = _undefined(on, known) + 0.0 * low[0]
+        slopes = {
+            slot: interval_graph.tangents(graph, on, known, slot)
+            for slot in self._slots
+        }
 
         @functools.cache
         def enclosure(last: int | None) -> tuple[Any, Any]:
             x = on.constant(0.0) if last is None else known[last]
             if last is not None and interval_graph.smooth(graph, last):
                 y = at[last]
-                slopes = interval_graph.slopes(graph, on, known, last)
-                for slot, slope in slopes.items():
-                    y = on.add(y, on.mul(slope, away[slot]))
+                for slot, tangent in slopes.items():
+                    if tangent[last] is not None:
+                        y = on.add(y, on.mul(tangent[last], away[slot]))
                 x = on.meet(x, y)
             return on.lower(x) + undefined, on.upper(x) + undefined
 

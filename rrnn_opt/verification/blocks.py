@@ -129,7 +129,7 @@ def rate_claim(
     Args:
         name: id of the claim.
         source: where the statement is made.
-        q: joints, (n, 1).
+        q: the joints that J depends on, (k, 1).
         jacobian: J, SX (2, n).
         polar: (t, r), rad and m, (2, 1).
         epsilon: of (18).
@@ -141,8 +141,8 @@ def rate_claim(
         ShapeError: the task is not planar.
         RrnnError: r may be 0.
     """
-    if jacobian.shape != (2, q.size):
-        raise ShapeError("jacobian", (2, q.size), jacobian.shape)
+    if jacobian.shape[0] != 2:
+        raise ShapeError("jacobian", (2, jacobian.shape[1]), jacobian.shape)
     least = [r.lower[1] for r in domain if r.variable == polar.name]
     if not any(low is not None and low > 0 for low in least):
         raise RrnnError(f"{name}: the length of the error must be positive")

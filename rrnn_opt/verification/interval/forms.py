@@ -62,7 +62,7 @@ class Forms:
         smooth = np.concatenate([_continuous(x, c) for c in columns])
         slope = None
         if smooth.any():
-            jacobian = ca.densify(ca.jacobian(y, x))
+            jacobian = ca.densify(_forward(y, x))
             try:
                 slope = IntervalKernel.of(ca.Function("slope", [x], [jacobian]))
             except UnsupportedOperationError:
@@ -101,6 +101,12 @@ class Forms:
             low = np.where(use, np.maximum(low, natural.lower), natural.lower)
             high = np.where(use, np.minimum(high, natural.upper), natural.upper)
         return Enclosure(low, high, natural.bounded), spread
+
+
+def _forward(y: ca.SX, x: ca.SX) -> ca.SX:
+    """The Jacobian by forward differentiation, which encloses best."""
+    n = x.numel()
+    return ca.horzcat(*[ca.jtimes(y, x, ca.SX(ca.DM.eye(n)[:, k])) for k in range(n)])
 
 
 def middle(lower: Array, upper: Array) -> Array:
