@@ -23,6 +23,7 @@ from rrnn_opt.validation.tables.blocked import blocked, least
 from rrnn_opt.validation.tables.checks import Finding, yes
 from rrnn_opt.validation.tables.models import MODELS, Model
 from rrnn_opt.validation.tables.page import spelled
+from rrnn_opt.validation.tables.printed import printed, printed_row, rows_of
 from rrnn_opt.validation.tables.starts import start_problem
 from rrnn_opt.validation.tables.table_1_page import page
 
@@ -34,15 +35,8 @@ SCENE = "window"
 _ROLLOUTS = 300
 """Explorations that a planner of a row may make."""
 
-PAPER = {
-    "Model in [43]": "Yes Nonzero No No No No No No",
-    "Model in [44]": "Yes Zero Yes Yes No No No No",
-    "Model in [36]": "Yes Zero Yes Yes Yes Yes No No",
-    "Model in [35]": "Yes Zero Yes Yes Yes Yes No No",
-    "Model in [25]": "Yes Zero No Yes Yes No Yes No",
-    "Model in [26]": "Yes Zero No Yes Yes Yes Yes No",
-    "Proposed": "Yes Zero Yes Yes Yes Yes Yes Yes",
-}
+PAPER = {row: " ".join(printed_row("I", row)) for row in rows_of("I")}
+"""The paper's words of each row, in the order of ``columns``."""
 
 
 @dataclass(frozen=True)
@@ -130,13 +124,23 @@ def marks(runs: int = 5, rows: Sequence[Model] = MODELS) -> Iterator[Mark]:
         rows: of the table.
     """
     for model in rows:
-        words = PAPER[model.row].split()
-        for (column, check), paper in zip(columns(runs).items(), words, strict=True):
-            try:
-                ours, reason = check(model)
-            except RrnnError as error:
-                ours, reason = "unknown", f"the check could not run: {error}"
-            yield Mark(model.row, column, paper, ours, reason)
+        for column in columns(runs):
+            yield mark(model, column, runs=runs)
+
+
+def mark(model: Model, column: str, *, runs: int = 5) -> Mark:
+    """One cell.
+
+    Args:
+        model: of the row.
+        column: of ``columns``.
+        runs: see ``columns``.
+    """
+    try:
+        ours, reason = columns(runs)[column](model)
+    except RrnnError as error:
+        ours, reason = "unknown", f"the check could not run: {error}"
+    return Mark(model.row, column, printed("I", model.row, column), ours, reason)
 
 
 def cells(found: Sequence[Mark] | None = None, *, command: str = PROGRAM) -> list[Any]:

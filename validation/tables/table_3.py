@@ -19,17 +19,20 @@ from rrnn_opt.report.files import write_text
 from rrnn_opt.study import wilson
 from rrnn_opt.validation.tables.cell import Cell, judged, markdown
 from rrnn_opt.validation.tables.collect import collect, surroundings
+from rrnn_opt.validation.tables.printed import printed
 from rrnn_opt.validation.tables.trials import SCENARIOS, TRIALS, PlanningTrials
 
 PRINTED = ("paper", "paper, I = failure", "paper, coin")
+COLUMNS = {
+    "method1": "Method1",
+    "method2": "Method2",
+    "random-rnn": "Proposed",
+    **dict.fromkeys(PRINTED, "Proposed"),
+}
 PAPER = {
-    ("plane", "method1"): 0.92,
-    ("plane", "method2"): 0.92,
-    ("plane", "random-rnn"): 1.00,
-    ("window", "method1"): 0.72,
-    ("window", "method2"): 0.74,
-    ("window", "random-rnn"): 1.00,
-    **{(scene, name): 1.00 for scene in SCENARIOS for name in PRINTED},
+    (scene, planner): printed("III", f"Scenario {1 + k}", column)
+    for k, scene in enumerate(SCENARIOS)
+    for planner, column in COLUMNS.items()
 }
 """Success rates of table III; both the repaired planner and Algorithm 1 as
 printed are held against its column "Proposed"."""
@@ -92,7 +95,7 @@ def _cell(
         verdict = "cannot be reproduced as printed"
     return Cell(
         table="III",
-        row=_title(scenario),
+        row=scenario_title(scenario),
         column=planner,
         paper=printed,
         ours=share,
@@ -104,7 +107,8 @@ def _cell(
     )
 
 
-def _title(scenario: str) -> str:
+def scenario_title(scenario: str) -> str:
+    """Name of a scenario in the tables."""
     return f"scenario {1 + SCENARIOS.index(scenario)} ({scenario})"
 
 
@@ -124,7 +128,7 @@ def page(rows: Sequence[dict[str, Any]], command: str) -> str:
             )
             lines.append(
                 (
-                    _title(scenario),
+                    scenario_title(scenario),
                     planner,
                     None if printed is None else f"{printed:.0%}",
                     f"{share:.1%}",
@@ -132,7 +136,7 @@ def page(rows: Sequence[dict[str, Any]], command: str) -> str:
                     len(mine),
                     float(np.percentile(times, 50)),
                     float(np.percentile(times, 95)),
-                    verdicts.get((_title(scenario), planner)),
+                    verdicts.get((scenario_title(scenario), planner)),
                 )
             )
     return markdown(HEADER, lines)

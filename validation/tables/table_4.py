@@ -18,16 +18,20 @@ from numpy.typing import NDArray
 from rrnn_opt.report.files import write_text
 from rrnn_opt.validation.tables.cell import Cell, judged, markdown
 from rrnn_opt.validation.tables.collect import surroundings
+from rrnn_opt.validation.tables.printed import printed
 from rrnn_opt.validation.tables.table_3 import arguments, of, planning_rows
 from rrnn_opt.validation.tables.trials import SCENARIOS
 
 Array = NDArray[np.float64]
 COUNTS = {"random": "RE", "heuristic": "HS", "total": "Total"}
+COLUMNS = {"no-learning": "Without Learning", "random-rnn": "Proposed"}
 PAPER = {
-    ("plane", "no-learning"): {"random": 20.80, "heuristic": 21.46, "total": 42.26},
-    ("plane", "random-rnn"): {"random": 19.88, "heuristic": 2.92, "total": 22.80},
-    ("window", "no-learning"): {"random": 56.66, "heuristic": 56.60, "total": 113.26},
-    ("window", "random-rnn"): {"random": 52.76, "heuristic": 5.42, "total": 58.18},
+    (scene, planner): {
+        key: printed("IV", f"Scenario {1 + k}", f"{column} {short}")
+        for key, short in COUNTS.items()
+    }
+    for k, scene in enumerate(SCENARIOS)
+    for planner, column in COLUMNS.items()
 }
 """Mean explorations of table IV; "random-rnn" stands for "Proposed"."""
 PAIRS = (("no-learning", "random-rnn"), ("paper, coin", "paper, I = failure"))
@@ -81,7 +85,7 @@ def cells(rows: Sequence[dict[str, Any]], command: str) -> list[Cell]:
         command: that made them.
     """
     result = []
-    for (scenario, planner), printed in PAPER.items():
+    for (scenario, planner), counts in PAPER.items():
         mine = of(rows, scenario, planner)
         for key, column in COUNTS.items() if mine else ():
             values = np.array([r[key] for r in mine], dtype=float)
@@ -91,13 +95,11 @@ def cells(rows: Sequence[dict[str, Any]], command: str) -> list[Cell]:
                     table="IV",
                     row=f"scenario {1 + SCENARIOS.index(scenario)} ({scenario})",
                     column=f"{planner} {column}",
-                    paper=printed[key],
+                    paper=counts[key],
                     ours=mean,
                     interval=interval,
                     n=len(mine),
-                    verdict=judged(
-                        printed[key], mean, interval, larger_is_better=False
-                    ),
+                    verdict=judged(counts[key], mean, interval, larger_is_better=False),
                     reason="another steering, in scenes and from starts of our own",
                     command=command,
                 )
@@ -163,7 +165,7 @@ def gains(rows: Sequence[dict[str, Any]]) -> str:
 def _printed(scenario: str) -> float:
     """The paper's ratio of mean totals."""
     totals = [PAPER[scenario, name]["total"] for name in ("no-learning", "random-rnn")]
-    return totals[0] / totals[1]
+    return float(totals[0] / totals[1])
 
 
 def main(argv: Sequence[str] | None = None) -> Path:

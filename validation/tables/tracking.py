@@ -40,6 +40,7 @@ from rrnn_opt.formulations import (
 from rrnn_opt.networks import DualNetwork, PrimalDual
 from rrnn_opt.robot import Robot
 from rrnn_opt.simulation import Control, Curve, Noise, SimulationResult, Task, simulate
+from rrnn_opt.validation.tables.printed import printed_row, rows_of
 
 SIGMAS = (0.01, 0.05, 0.25)
 CIRCLES: dict[str, tuple[tuple[float, ...], str]] = {
@@ -89,8 +90,7 @@ class Entry:
         return partial(self.scheme, **{**self.fixed, **gains})
 
 
-_PROPOSED, _ONE = (0.007, 0.010, 0.010), (0.027, 0.092, 0.246)
-_TWO, _THREE = (0.025, 0.069, 0.199), (0.005, 0.010, 0.011)
+_PROPOSED, _ONE, _TWO, _THREE = (printed_row("II", row) for row in rows_of("II"))
 _RATE = (1.0, 100.0)
 """Of a feedback, 1/s: up to one over the control period."""
 

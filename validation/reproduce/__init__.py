@@ -1,0 +1,1 @@
+"""The whole paper run again: one report with its numbers beside ours."""
