@@ -60,6 +60,18 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
         metavar="I",
         help="robot spheres that keep off (default: the last of two links)",
     )
+    add(
+        "--layout",
+        nargs="+",
+        choices=("arduino", "fmu"),
+        default=[],
+        help="also as an Arduino library or an FMI 3.0 FMU with sources",
+    )
+    add(
+        "--planner",
+        action="store_true",
+        help="with rollouts and memory cell, to plan on board",
+    )
 
 
 def run(args: argparse.Namespace, out: Output) -> int:
@@ -89,6 +101,8 @@ def run(args: argparse.Namespace, out: Output) -> int:
         fused=args.fused,
         trig=args.trig,
         target=args.target,
+        onboard=_onboard(args, kin),
+        layout=args.layout,
     )
     package = _measured(package, args.target, out)
     written = package.write(target)
@@ -120,11 +134,21 @@ def _with_obstacles(
     """The scheme with obstacle rows, and a bound of their norm."""
     from rrnn_opt.formulations.known_obstacles import row_bound, with_obstacles
 
-    if args.obstacles == 0 and not args.points:
+    if args.obstacles == 0:
         return form, None
     points = args.points or _last_points(kin)
     wanted = {"points": points, "obstacles": args.obstacles}
     return with_obstacles(form, kin, **wanted), row_bound(kin, **wanted)
+
+
+def _onboard(args: argparse.Namespace, kin: Any) -> Any:
+    """The planning module, if it is asked for; one obstacle at least."""
+    if not args.planner:
+        return None
+    from rrnn_opt.embedding.onboard import Onboard
+
+    points = args.points or _last_points(kin)
+    return Onboard(kin, points, obstacles=max(args.obstacles, 1))
 
 
 def _last_points(kin: Any) -> list[int]:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from rrnn_opt.dynamics import Dynamics
 from rrnn_opt.embedding import documents, render, render_source, render_tests
 from rrnn_opt.embedding.build_files import build_files
+from rrnn_opt.embedding.fmu import fmu
 from rrnn_opt.embedding.kernel import Kernel, kernel, pose
+from rrnn_opt.embedding.layouts import arduino
 from rrnn_opt.embedding.manifest import facts
+from rrnn_opt.embedding.onboard import Onboard, onboard_files
 from rrnn_opt.embedding.options import Options
 from rrnn_opt.embedding.package import Package, with_manifest
 from rrnn_opt.embedding.programme import Programme, programme
@@ -24,6 +28,8 @@ from rrnn_opt.embedding.vectors import (
 from rrnn_opt.networks import Network
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.symbolic import Tape
+
+Layout = Literal["arduino", "fmu"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +52,8 @@ def generate(
     network: Network | None = None,
     kinematics: Kinematics | None = None,
     row_norm: float | None = None,
+    onboard: Onboard | None = None,
+    layout: Sequence[Layout] = (),
     **options: Any,
 ) -> Package:
     """Make a C99 package of a network: ``steps`` Euler steps in one call.
@@ -62,6 +70,9 @@ def generate(
             Jacobian of the tip.
         row_norm: upper bound of the norm of the inequality rows for all
             parameters, as ``formulations.known_obstacles.row_bound`` gives.
+        onboard: rollouts and memory cell to go with it; the robot's planner.
+        layout: further layouts of the same C that the package holds:
+            "arduino" (a library), "fmu" (FMI 3.0 co-simulation, as sources).
         **options: fields of ``Options``: prefix, real, steps, step_size,
             tolerance, fallback, fused, trig, target.
 
@@ -93,6 +104,12 @@ def generate(
     )
     files = _sources(parts) | _tests(parts)
     files |= build_files(core, wanted, parts.words) | target_files(wanted, parts.words)
+    if onboard is not None:
+        files |= onboard_files(onboard, wanted, parts.words)
+    if "arduino" in layout:
+        files |= arduino(files, wanted, parts.words)
+    if "fmu" in layout:
+        files |= fmu(core, files, wanted, parts.words)
     files["README.md"] = documents.readme(core, parts.words, wanted, parts.close)
     files["LICENSE"] = render.verbatim("APACHE-2.0.md")
     return with_manifest(wanted.prefix, files, facts(core, wanted, network, longest))
