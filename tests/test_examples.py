@@ -39,12 +39,20 @@ def test_readme_python(tmp_path):
     [
         ("plan", "window.json"),
         ("verify", "verify_my_claim.py"),
+        ("verify", "verify_other_systems.py"),
         ("simulate", "position_feedback", "--robot", "pa10", "--task", "circle.toml"),
     ],
-    ids=lambda a: a[0],
+    ids=lambda a: f"{a[0]}_{Path(a[1]).stem}",
 )
 def test_command_of_an_example_file(arguments, tmp_path):
     files = {p.name: str(p) for p in (ROOT / "examples").iterdir()}
     command = [sys.executable, "-m", "rrnn_opt.cli.main"]
     done = run(command + [files.get(a, a) for a in arguments], tmp_path)
     assert done.returncode == 0, done.stderr
+
+
+def test_the_proof_of_the_tutorial(tmp_path):
+    text = (ROOT / "docs" / "tutorials" / "verify.md").read_text()
+    (block,) = re.findall(r"```python\n(.*?)```", text, re.S)
+    done = run([sys.executable, "-W", "error", "-c", block], tmp_path)
+    assert done.stdout.split() == ["PROVED", "exact"], done.stderr

@@ -125,10 +125,15 @@ class Script:
             self._say(f"(= {me} {self._power(step)})")
         elif step.op in _MEANING and _ARITY[step.op] == len(args):
             self._say(*_MEANING[step.op](me, *args))
-            if step.op in ("div", "inv", "sqrt"):
+            if step.op in ("div", "inv", "sqrt") and not self._by_number(step):
                 self.partial.add(step.op)
         else:
             raise UndecidedError(f"operation '{step.op}' is not known to this method")
+
+    def _by_number(self, step: Step) -> bool:
+        """Whether a quotient divides by a number that is not 0."""
+        divisor = self.steps[step.args[-1]].const
+        return step.op != "sqrt" and divisor is not None and divisor != 0.0
 
     def _power(self, step: Step) -> str:
         exponent = self.steps[step.args[1]].const

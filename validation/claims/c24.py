@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
+
 import casadi as ca
 
 from rrnn_opt.claim import Claim, Relation
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.symbolic import Symbol
-from rrnn_opt.verification import ClaimCase, Given, Instance, Mutation, Proof
+from rrnn_opt.verification import (
+    ClaimCase,
+    Given,
+    Instance,
+    Mutation,
+    Proof,
+    Repair,
+)
+from rrnn_opt.verification.blocks import curvature_claim
 from rrnn_opt.verification.composite import Term
 from rrnn_opt.verification.lemmas import clip, projection
-from rrnn_opt.verification.vocabulary import added, not_negative, scalars
+from rrnn_opt.verification.vocabulary import added, between, not_negative, scalars
 
 JOINTS = 7
 
@@ -23,7 +34,8 @@ def case(kinematics: Kinematics) -> ClaimCase:
 
         V - V+ >= h epsilon sum (x_i - p_i) p_i + (h/2)(2 epsilon - L h) |p|^2.
 
-    The mutation is h = 2.5 epsilon for one joint with f(q) = q, where L = 1.
+    The mutation is h = 2.5 epsilon for one joint with f(q) = q, where L = 1; the
+    repaired statement is an L for one arm.
 
     Args:
         kinematics: not used; the statement is about any arm.
@@ -66,7 +78,19 @@ def case(kinematics: Kinematics) -> ClaimCase:
     terms: tuple[Term, ...] = (Given(0), *joints, Given(1, 0, h.sx * size / 2))
     example = {s.name: [0] * s.size for s in claim.variables}
     proof = Proof(claim, (projection(),), (terms,), (), example)
-    return ClaimCase(proof, Mutation("h = 2.5 epsilon", _longer()))
+    mutation = Mutation("h = 2.5 epsilon", _longer())
+    return ClaimCase(proof, mutation, (), Repair(_curvature()))
+
+
+def _curvature() -> Claim:
+    """L = 9 for a planar arm of two links of 1 m and errors of 1/2 m an axis."""
+    q, error = Symbol.vector("q", 2, "rad"), Symbol.vector("e", 2, "m")
+    angle = q.sx[0] + q.sx[1]
+    tip = ca.vertcat(ca.cos(q.sx[0]) + ca.cos(angle), ca.sin(q.sx[0]) + ca.sin(angle))
+    ranges = (between(q, -4, 4), between(error, "-1/2", "1/2"))
+    claim = curvature_claim("C24", "eq. (18)", q, tip, error, Fraction(9), ranges)
+    statement = "L = 9 for two links of 1 m at every posture, |e_k| <= 1/2: steps up "
+    return replace(claim, statement=f"{statement}to h = 2 epsilon/9 do")
 
 
 def _longer() -> Claim:
