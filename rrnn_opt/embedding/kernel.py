@@ -46,7 +46,8 @@ class Kernel:
         dynamics: the network.
         function: (state, parameters.., step_size) -> "next" state, "output"
             there, "merit" V and largest "residual" of the old state, "extent"
-            (sum of squares of the parameters), "size" (of states and output)
+            (sum of squares of the parameters), "size" (``tally`` of states and
+            output)
             and, where there are bounds, "room" (least upper - lower).
         tape: of the function.
         monitor: (state, parameters.., step_size) -> "merit", its "change" in
@@ -119,6 +120,12 @@ def largest(values: ca.SX) -> ca.SX:
     return ca.densify(ca.norm_inf(values)) if values.numel() else ca.SX(0)
 
 
+def tally(*columns: ca.SX) -> ca.SX:
+    """Magnitude of the sum: finite unless an entry is not, or is close to it."""
+    entries = {e.element_hash(): e for column in columns for e in ca.vertsplit(column)}
+    return ca.fabs(ca.sum1(ca.vertcat(*entries.values())))
+
+
 def room(lower: ca.SX, upper: ca.SX) -> ca.SX:
     """Least ``upper - lower``; negative when some bounds exclude everything."""
     found = ca.SX(1)
@@ -149,7 +156,7 @@ def _step_outputs(step: DiscreteDynamics, bounds: int) -> dict[str, ca.SX]:
         "merit": merit(step).value,
         "residual": largest(step.residual),
         "extent": ca.sumsqr(given) if given.numel() else ca.SX(0),
-        "size": ca.sumsqr(step.state.sx) + ca.sumsqr(step.next) + ca.sumsqr(output),
+        "size": tally(step.state.sx, step.next, output),
     }
     form = step.formulation
     if bounds and form is not None:
@@ -167,7 +174,7 @@ def _monitor_outputs(
         "change": value.change(step),
         "residual": largest(step.residual),
         "extent": ca.sumsqr(given) if given.numel() else ca.SX(0),
-        "size": ca.sumsqr(step.state.sx) + ca.sumsqr(step.next),
+        "size": tally(step.state.sx, step.next),
     }
     form = step.formulation
     if form is None or form.decision.shape != shape_of(step.output):

@@ -58,7 +58,7 @@ _WORDS = frozenset(
         """auto break case char const continue default do double else enum extern float
         for goto if inline int long register restrict return short signed sizeof
         static struct switch typedef union unsigned void volatile while
-        real_t rrnn_sincos rrnn_sincos_t rrnn_turn rrnn_k
+        real_t rrnn_sincos rrnn_sincos_t rrnn_sincos_all rrnn_turn
         rrnn_angle sqrt fabs floor ceil copysign NAN INFINITY""",
     )
 ) | {name + f for name in LIBRARY for f in ("", "f")}
@@ -82,7 +82,7 @@ def c_function(
         real: type that ``real_t`` stands for; fixes literals and library calls.
         static: internal linkage; otherwise the function is exported and
             preceded by its prototype.
-        compact: sines and cosines of arguments in one loop, for small code.
+        compact: sines and cosines of arguments in one call, for small code.
         inline: put into its callers in any case, so that a loop over lanes
             around it becomes vector instructions; needs ``static``.
 
@@ -209,24 +209,21 @@ class _Operands:
     def turn(self, tape: Tape, names: list[str]) -> Iterator[str]:
         """Lines that turn through all angles that are elements of arguments."""
         steps = tape.instructions
-        angles = {s.args[0] for s in steps if s.op in ("sin", "cos")}
-        slots = {a: slot for a in sorted(angles) if (slot := steps[a].slot)}
+        turned = {s.args[0] for s in steps if s.op in ("sin", "cos")}
+        slots = {a: slot for a in sorted(turned) if (slot := steps[a].slot)}
         if len(slots) < 2:
             return
         first, count = next(iter(slots.values())), len(slots)
         run = [(first[0], first[1] + k) for k in range(count)]
         if list(slots.values()) == run:
-            start = f" + {first[1]}U" * (first[1] > 0)
-            angle = f"{names[first[0]]}[rrnn_k{start}]"
+            name = names[first[0]]
+            angles = f"&{name}[{first[1]}]" if first[1] else name
         else:
             listed = ", ".join(f"{names[k]}[{e}]" for k, e in slots.values())
             yield f"const real_t rrnn_angle[{count}] = {{{listed}}};"
-            angle = "rrnn_angle[rrnn_k]"
+            angles = "rrnn_angle"
         yield f"rrnn_sincos_t rrnn_turn[{count}];"
-        yield "size_t rrnn_k;"
-        yield f"for (rrnn_k = 0U; rrnn_k < {count}U; ++rrnn_k) {{"
-        yield f"    rrnn_turn[rrnn_k] = rrnn_sincos({angle});"
-        yield "}"
+        yield f"rrnn_sincos_all({angles}, {count}U, rrnn_turn);"
         self._pairs = {a: f"rrnn_turn[{k}]" for k, a in enumerate(slots)}
         read = {a for s in steps if s.op not in ("sin", "cos") for a in s.args}
         self._turned = set(slots) - read

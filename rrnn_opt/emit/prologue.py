@@ -30,10 +30,12 @@ typedef {real} real_t;
 #define RRNN_UNUSED __attribute__((unused))
 #define RRNN_EXPORT __attribute__((visibility("default")))
 #define RRNN_INLINE static inline __attribute__((always_inline))
+#define RRNN_APART __attribute__((noinline))
 #else
 #define RRNN_UNUSED
 #define RRNN_EXPORT
 #define RRNN_INLINE static inline
+#define RRNN_APART
 #endif
 """
 
@@ -47,6 +49,15 @@ RRNN_UNUSED static inline rrnn_sincos_t rrnn_sincos(real_t x)
 {{
     const rrnn_sincos_t out = {{sin{f}(x), cos{f}(x)}};
     return out;
+}}
+
+RRNN_UNUSED static void rrnn_sincos_all(const real_t x[], uint32_t count,
+                                        rrnn_sincos_t out[])
+{{
+    uint32_t i;
+    for (i = 0U; i < count; ++i) {{
+        out[i] = rrnn_sincos(x[i]);
+    }}
 }}
 """
 

@@ -10,7 +10,7 @@ typedef struct {
     double c;
 } rrnn_sincos_t;
 
-RRNN_UNUSED static rrnn_sincos_t rrnn_sincos(double x)
+RRNN_UNUSED static inline rrnn_sincos_t rrnn_sincos(double x)
 {
     const double big = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds */
     const int ok = fabs(x) <= 1073741824.0;
@@ -39,4 +39,14 @@ RRNN_UNUSED static rrnn_sincos_t rrnn_sincos(double x)
     const double turned[4] = {sr, cr, -sr, -cr};
     const rrnn_sincos_t out = {turned[k & 3U], turned[(k + 1U) & 3U]};
     return out;
+}
+
+/* Of `count` angles: one loop, so that the constants are loaded once. */
+RRNN_UNUSED RRNN_APART static void rrnn_sincos_all(const double x[], uint32_t count,
+                                        rrnn_sincos_t out[])
+{
+    uint32_t i;
+    for (i = 0U; i < count; ++i) {
+        out[i] = rrnn_sincos(x[i]);
+    }
 }

@@ -4,7 +4,7 @@
  * stand in a table that the quadrant points into, and an angle out of range
  * makes the last part of pi/2 a NaN: no branch, and no select of two values
  * that a compiler could turn into one.  So the number of instructions does not
- * depend on the angle.  Not inline: a loop over the joints needs it once.  */
+ * depend on the angle.  */
 #if FLT_EVAL_METHOD != 0
 #error "sincos needs FLT_EVAL_METHOD == 0"
 #endif
@@ -14,7 +14,7 @@ typedef struct {
     float c;
 } rrnn_sincos_t;
 
-RRNN_UNUSED static rrnn_sincos_t rrnn_sincos(float x)
+RRNN_UNUSED static inline rrnn_sincos_t rrnn_sincos(float x)
 {
     const float big = 12582912.0F; /* 1.5 * 2^23: adding it rounds */
     const int ok = fabsf(x) <= 32768.0F;
@@ -37,4 +37,14 @@ RRNN_UNUSED static rrnn_sincos_t rrnn_sincos(float x)
     const float turned[4] = {sr, cr, -sr, -cr};
     const rrnn_sincos_t out = {turned[k & 3U], turned[(k + 1U) & 3U]};
     return out;
+}
+
+/* Of `count` angles: one loop, so that the constants are loaded once. */
+RRNN_UNUSED RRNN_APART static void rrnn_sincos_all(const float x[], uint32_t count,
+                                        rrnn_sincos_t out[])
+{
+    uint32_t i;
+    for (i = 0U; i < count; ++i) {
+        out[i] = rrnn_sincos(x[i]);
+    }
 }
