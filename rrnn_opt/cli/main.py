@@ -50,6 +50,14 @@ COMMANDS: dict[str, Any] = {
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
 
+class _Help(argparse.HelpFormatter):
+    """Help with room for the longest command: argparse forgets its indentation."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog)
+        self._action_max_length = max(map(len, COMMANDS)) + 4
+
+
 class _Parser(argparse.ArgumentParser):
     """A parser that raises instead of leaving and wants options in full."""
 
@@ -66,6 +74,7 @@ def parser() -> argparse.ArgumentParser:
         prog="rrnn",
         description="One symbolic law in; a proof, a solver, a plan and a controller"
         " out.",
+        formatter_class=_Help,
     )
     top.add_argument("--version", action="version", version=_version())
     commands = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
