@@ -49,16 +49,26 @@ def strewn(count, keep, rng):
 
 
 def measured(problem):
-    """p50 and p95 of the search alone, ms, and how many found a path."""
-    runtime, times, found = runtime_of(problem.robot, RandomRnn().cell), [], 0
+    """CPU time of the search alone, its steps, and how many found a path."""
+    runtime = runtime_of(problem.robot, RandomRnn().cell)
+    times, steps, found = [], [], 0
     for seed in range(SEEDS):
         packed = pack(problem, (), problem.goals, seed)
-        begin = time.perf_counter()
+        begin = time.thread_time()
         with Search(runtime, RandomRnn(), packed.struct, packed.keep) as search:
             found += search.run(20_000, 20.0) == "solved"
-        times.append(1e3 * (time.perf_counter() - begin))
+            counts = search.counts()
+        times.append(1e3 * (time.thread_time() - begin))
+        steps.append(counts.rollout_steps)
     p50, p95 = np.percentile(times, [50, 95])
-    return {"found": found, "of": SEEDS, "p50_ms": float(p50), "p95_ms": float(p95)}
+    return {
+        "found": found,
+        "of": SEEDS,
+        "p50_ms": float(p50),
+        "p95_ms": float(p95),
+        "steps": float(np.median(steps)),
+        "step_us": 1e3 * float(np.sum(times) / np.sum(steps)),
+    }
 
 
 def main():

@@ -24,6 +24,7 @@ VARIANTS: dict[str, PlannerSettings] = {
     "no memory cell: always random": RandomRnn(coin=1.0),
     "no memory cell: never random": RandomRnn(coin=0.0),
     "no connecting slide": RandomRnn(connect=False),
+    "attractions drawn uniformly": RandomRnn(edge=1),
     "all off": RandomRnn(project=False, drive=False, coin=0.5, connect=False),
 }
 
