@@ -110,7 +110,10 @@ def generate(
         files |= arduino(files, wanted, parts.words)
     if "fmu" in layout:
         files |= fmu(core, files, wanted, parts.words)
-    files["README.md"] = documents.readme(core, parts.words, wanted, parts.close)
+    files["README.md"] = documents.readme(
+        core, parts.words, wanted, parts.close, exact, longest
+    )
+    files["MISRA.md"] = documents.misra(parts.words)
     files["LICENSE"] = render.verbatim("APACHE-2.0.md")
     return with_manifest(wanted.prefix, files, facts(core, wanted, network, longest))
 

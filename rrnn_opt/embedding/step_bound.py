@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from rrnn_opt.formulation import Formulation
-from rrnn_opt.networks import LviPdnn, Network, PrimalDual
+from rrnn_opt.networks import LviPdnn, Network
 
 _ROUND_DOWN = 1.0 - 1e-9
 
@@ -19,12 +19,13 @@ def longest_step(
 
     Whitened equality rows have singular values below one, so with the
     inequality rows bounded by ``row_norm`` the stack B of all rows has
-    |B|^2 <= s^2 = 1 + row_norm^2, and with p- <= P <= p+
+    |B|^2 <= s^2 = 1 + row_norm^2, and with P <= p+
 
-        LviPdnn:     h <= 2 / (gamma |I + H|^2),
-                     |I + H| <= | [[1 + p+, s], [s, 1]] |  (block norms);
-                     for P = I the largest singular value of [[2, -s], [s, 1]]
-        PrimalDual:  h <= epsilon min(2, 2 / p+, p- / s^2).
+        h <= 2 / (gamma |I + H|^2),   |I + H| <= | [[1 + p+, s], [s, 1]] |
+
+    by the norms of the blocks; for P = I it is the largest singular value of
+    [[2, -s], [s, 1]].  Below it no step goes away from a solution, which is
+    known of ``LviPdnn`` alone.
 
     Args:
         rule: the network's rule.
@@ -33,10 +34,10 @@ def longest_step(
             when there are none.
 
     Returns:
-        The step, s; None where nothing is known: another network, equality
+        The step, s; None where nothing is promised: another network, equality
         rows that are not whitened, or rows without a bound.
     """
-    if not isinstance(rule, (LviPdnn, PrimalDual)):
+    if not isinstance(rule, LviPdnn):
         return None
     if form.equalities.size1() and not rule.whiten:
         return None
@@ -45,13 +46,9 @@ def longest_step(
     square = float(form.equalities.size1() > 0)
     if form.inequalities.size1() and row_norm is not None:
         square += row_norm**2
-    curvature = np.linalg.eigvalsh(form.qp.hessian)
-    if isinstance(rule, LviPdnn):
-        size = _size(form, math.sqrt(square), float(curvature[-1]))
-        return _ROUND_DOWN * 2.0 / (rule.gamma * size**2)
-    swing = float(curvature[0]) / square if square > 0.0 else math.inf
-    longest = min(2.0, 2.0 / max(float(curvature[-1]), 1.0), swing)
-    return _ROUND_DOWN * rule.epsilon * longest if longest > 0.0 else None
+    steepest = float(np.linalg.eigvalsh(form.qp.hessian)[-1])
+    size = _size(form, math.sqrt(square), steepest)
+    return _ROUND_DOWN * 2.0 / (rule.gamma * size**2)
 
 
 def _size(form: Formulation, s: float, steepest: float) -> float:
