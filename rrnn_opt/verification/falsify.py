@@ -73,8 +73,8 @@ def candidates(
     points = sorted(
         (breach.draw(rng) for _ in range(samples)), key=breach.score, reverse=True
     )
-    for start in points[:starts]:
-        for best in (_improved(start, breach), start):
+    for rank, start in enumerate(points[:starts]):
+        for best in (_improved(start, breach, rank=rank), start):
             for point in _simpler(claim, best):
                 if breach.score(_column(claim, point)) > _threshold(claim):
                     yield point
@@ -88,7 +88,7 @@ def keepers(claim: Claim, *, seed: int = 0, samples: int = 32) -> Iterator[Point
         start = breach.draw(rng)
         found = _first_kept(claim, breach, start)
         if found is None:
-            restored = _improved(start, breach, goal=False)
+            restored = _improved(start, breach)
             found = _first_kept(claim, breach, restored)
         if found is not None:
             yield found
@@ -110,14 +110,22 @@ def _threshold(claim: Claim) -> float:
     return -_NEAR if claim.goal.strict else _NOISE
 
 
-def _improved(start: Array, breach: Breach, *, goal: bool = True) -> Array:
-    """Downhill in the goal's worst element, within hypotheses and domain."""
+def _improved(start: Array, breach: Breach, *, rank: int | None = None) -> Array:
+    """Downhill in one element of the goal, within hypotheses and domain.
+
+    Args:
+        start: where to begin.
+        breach: the claim.
+        rank: 0 for the worst element at the start, 1 for the next, and so on
+            around; None to leave the goal alone.
+    """
 
     def part(index: int, x: Array) -> Any:
         result = breach.derivatives.call([x])[index]
         return np.nan_to_num(np.asarray(result, dtype=np.float64))
 
-    worst = int(np.argmin(part(0, start).ravel()))
+    order = np.argsort(part(0, start).ravel())
+    worst = int(order[(rank or 0) % len(order)])
     constraints = [
         {
             "type": kind,
@@ -130,9 +138,9 @@ def _improved(start: Array, breach: Breach, *, goal: bool = True) -> Array:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of values beyond bounds, clipped below
         result = minimize(
-            lambda x: float(part(0, x).ravel()[worst]) if goal else 0.0,
+            lambda x: float(part(0, x).ravel()[worst]) if rank is not None else 0.0,
             start,
-            jac=lambda x: part(3, x)[worst] if goal else np.zeros_like(x),
+            jac=lambda x: part(3, x)[worst] if rank is not None else np.zeros_like(x),
             bounds=np.column_stack([breach.lower, breach.upper]),
             constraints=constraints,
             method="SLSQP",

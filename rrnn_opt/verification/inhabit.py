@@ -46,11 +46,17 @@ def _candidates(
         yield exact_point(given)
     for found in keepers(claim, seed=seed):
         yield exact_point(found)
-    query = smt_text(claim)
+    try:
+        query = smt_text(claim)
+    except UndecidedError as error:
+        reason = f"no point was found that keeps the hypotheses ({error.reason})"
+        raise UndecidedError(reason) from error
     query.negations = ["true"]  # whatever becomes of the goal
     answer = smt.ask(query, "z3", SOLVER_S)
     if answer.status == "unsat":
-        raise UndecidedError("the hypotheses contradict each other, says z3")
+        raise UndecidedError(
+            "the hypotheses contradict each other, or leave the goal undefined, says z3"
+        )
     if answer.status == "sat":
         for modelled in smt.candidates(claim, query, answer.model):
             yield exact_point(modelled)

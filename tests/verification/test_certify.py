@@ -104,9 +104,7 @@ def test_contradictory_hypotheses_prove_nothing():
     negative = Hypothesis("A2", "", Relation(x, "<=0"))
     verdict = certify(claim(x**2, ">=0", hypotheses=(positive, negative)))
     assert verdict.status is Status.UNKNOWN
-    assert verdict.reason == (
-        "hypotheses: the hypotheses contradict each other, says z3"
-    )
+    assert "the hypotheses contradict each other" in verdict.reason
     assert certify(claim(x**2, ">=0", hypotheses=(positive,))).status == "PROVED"
 
 
