@@ -18,6 +18,13 @@ from rrnn_opt.cli.output import Output, UsageError
 HELP = "settle claims: PROVED, REFUTED with a witness, HOLDS_UNDER, or UNKNOWN"
 OPEN = ("REFUTED", "UNKNOWN")
 TITLE = "Statements of the paper, and what is true"
+WORDS = (
+    "Statements are in our words; how each was read stands in its file in "
+    "validation/claims. PROVED adds no hypothesis to the source's own, HOLDS_UNDER "
+    "names those that it needs, REFUTED has a point that was replayed exactly; "
+    "assumptions that begin with pen are steps that no checker follows. Any verdict "
+    "is judged again by rrnn check DIR/ID.json."
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -163,7 +170,7 @@ def _report(
         words += ["--formulation", args.formulation, "--network", args.network]
     command = " ".join(["rrnn verify", *words, "--robot", args.robot, "--out", "DIR"])
     title = TITLE if args.all else "Claims"
-    about = {"title": title, "command": command}
+    about = {"title": title, "command": command, "words": WORDS}
     write_text(target / "claims.json", json.dumps(document, indent=1) + "\n")
     write_text(target / "claims.md", claims_markdown(document, **about))
     write_text(target / "claims.html", claims_html(document, **about))

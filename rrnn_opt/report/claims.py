@@ -78,16 +78,8 @@ def claims_markdown(
     """
     rows = document["claims"]
     head = ("id", "source", "as stated", "verdict", "rests on", "what is true")
-    lines = [
-        f"# {title}",
-        "",
-        words,
-        "",
-        f"Made by `{command}`.",
-        "",
-        _counted(rows),
-        "",
-    ]
+    told = [words, ""] if words else []
+    lines = [f"# {title}", "", *told, f"{_counted(rows)} Made by `{command}`.", ""]
     lines += [_cells(head), _cells(["---"] * len(head))]
     lines += [_cells(_described(row)) for row in rows]
     lines += [
@@ -104,13 +96,16 @@ def claims_markdown(
     return "\n".join(lines) + "\n"
 
 
-def claims_html(document: Mapping[str, Any], *, title: str, command: str) -> str:
+def claims_html(
+    document: Mapping[str, Any], *, title: str, command: str, words: str = ""
+) -> str:
     """The same as one offline page.
 
     Args:
         document: of ``rrnn verify --json``.
         title: heading.
         command: what makes the page again.
+        words: a paragraph below the heading.
     """
     head = "".join(
         f"<th>{name}</th>" for name in ("", "as stated", "verdict", "true is")
@@ -122,6 +117,7 @@ def claims_html(document: Mapping[str, Any], *, title: str, command: str) -> str
     return (
         f'<!doctype html><html lang="en"><head><meta charset="utf-8">'
         f"<title>{name}</title><style>{_STYLE}</style></head><body><h1>{name}</h1>"
+        f"<p>{html.escape(words)}</p>"
         f"<p>{html.escape(_counted(document['claims']))} Made by "
         f"<code>{html.escape(command)}</code>.</p>"
         f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
@@ -138,7 +134,7 @@ def _counted(rows: Sequence[Row]) -> str:
 
 
 def _described(row: Row) -> list[str]:
-    rests = because(row)
+    rests = _shortened(because(row), 240)
     if row["trust"]:
         rests = f"{rests} ({row['engine']}, {row['trust']})".strip()
     texts = (row["id"], row["source"], row["statement"], word(row), rests, _truth(row))
@@ -189,8 +185,8 @@ def _point(witness: Mapping[str, Sequence[str]]) -> str:
     return "witness " + ", ".join(parts)
 
 
-def _shortened(text: str) -> str:
-    return text if len(text) <= _WIDTH else text[: _WIDTH - 3] + "..."
+def _shortened(text: str, width: int = _WIDTH) -> str:
+    return text if len(text) <= width else text[: width - 3] + "..."
 
 
 def _cells(cells: Sequence[str]) -> str:

@@ -7,6 +7,7 @@ import copy
 from fractions import Fraction
 
 import casadi as ca
+import numpy as np
 import pytest
 
 from rrnn_opt.check.claim_certificate import check_certificate
@@ -151,3 +152,45 @@ def test_rules_cannot_be_dressed_up(rules):
     document = Proof(AM_GM, (SHOWN,), rules=rules).settle().certificate
     document["payload"]["rules"] = []
     assert not check_certificate(document).holds  # it says HOLDS_UNDER
+
+
+def leaves(value, path=()):
+    """Every number and word of a document, with its place."""
+    items = value.items() if isinstance(value, dict) else enumerate(value)
+    for key, inner in items:
+        if isinstance(inner, dict | list):
+            yield from leaves(inner, (*path, key))
+        elif not isinstance(inner, bool) and inner is not None:
+            yield (*path, key)
+
+
+def altered(document, path, rng):
+    broken = copy.deepcopy(document)
+    place = broken
+    for key in path[:-1]:
+        place = place[key]
+    old = place[path[-1]]
+    if isinstance(old, int):
+        place[path[-1]] = old + int(rng.choice([-1, 1]))
+    elif old.startswith(("0x", "-0x")):
+        place[path[-1]] = (-float.fromhex(old) or 1.0).hex()
+    else:
+        place[path[-1]] = {"add": "sub", "mul": "add", "sq": "neg"}.get(old, old + "1")
+    return broken
+
+
+def test_a_changed_digit_or_sign_is_seen():
+    """What survives is a name, or another proof of the very same claim."""
+    document = Proof(summed(), (SHOWN,), uses()).settle().certificate
+    shown = {"id", "source", "statement", "versions", "schema", "witness", "reason"}
+    rng = np.random.default_rng(0)
+    places = [p for p in leaves(document) if not shown & set(map(str, p))]
+    assert len(places) > 200
+    survived = []
+    for path in places:
+        with contextlib.suppress(DocumentError):
+            if check_certificate(altered(document, path, rng)).holds:
+                survived.append(path)
+    assert len(survived) < 0.1 * len(places)
+    for path in survived:
+        assert path[:2] == ("payload", "combination"), path

@@ -32,7 +32,7 @@ def case(kinematics: Kinematics) -> ClaimCase:
     jury = Relation(ca.vertcat(1 + a + b, 1 - a + b, 1 - b), ">0")
     positive = (
         stated("H1", "h > 0", k.sx, ">0"),
-        stated("H2", "sigma >= 1/2", p.J.sx - 0.5),
+        added("A2", "sigma >= 1/2", p.J.sx - 0.5),
     )
     bound = added("A1", "h < epsilon / sigma^2", 1 - k.sx * p.J.sx**2, ">0")
     claim, variant = (

@@ -89,8 +89,8 @@ def _curvature() -> Claim:
     tip = ca.vertcat(ca.cos(q.sx[0]) + ca.cos(angle), ca.sin(q.sx[0]) + ca.sin(angle))
     ranges = (between(q, -4, 4), between(error, "-1/2", "1/2"))
     claim = curvature_claim("C24", "eq. (18)", q, tip, error, Fraction(9), ranges)
-    statement = "L = 9 for two links of 1 m at every posture, |e_k| <= 1/2: steps up "
-    return replace(claim, statement=f"{statement}to h = 2 epsilon/9 do")
+    statement = "L = 9 bounds the Hessian of V for two links of 1 m at every posture"
+    return replace(claim, statement=f"{statement}, |e_k| <= 1/2 m")
 
 
 def _longer() -> Claim:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from rrnn_opt.claim import Claim, Relation
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.verification import ClaimCase, Given, Mutation, Proof, Repair
@@ -36,7 +38,7 @@ def case(kinematics: Kinematics) -> ClaimCase:
     )
     mended = _limit()
     mutation = Mutation("it tends to 0", mended, holds=True)
-    return ClaimCase(printed, mutation, ({"p": (0.1,)},), Repair(mended))
+    return ClaimCase(printed, mutation, ({"p": (Fraction(1, 10),)},), Repair(mended))
 
 
 def _limit() -> Proof:
