@@ -15,6 +15,7 @@ NAMES = (
     "whitening",
     "simulation",
     "intervals",
+    "study",
 )
 
 

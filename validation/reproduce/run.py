@@ -62,7 +62,7 @@ def studies(trials: int) -> dict[str, Study]:
         "table2": Errors(trials, 12 if trials <= 50 else 40),
         "table3": planning,
         "table4": planning,
-        "fig3": Curves(),
+        "fig3": Curves(max(2, min(20, trials // 2))),
         "fig4": Ways(),
         "fig5": Activities(max(1, min(20, trials // 5))),
         "raven": RavenTrials(trials),

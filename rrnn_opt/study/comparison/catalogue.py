@@ -32,7 +32,6 @@ GROUPS: dict[str, tuple[str, ...]] = {
         "obstacles/panda",
         "infeasible/ur5",
         "convex",
-        "scaled",
         "contradictory",
     ),
 }
