@@ -43,3 +43,13 @@ RRNN_UNUSED static inline rrnn_sincos_t rrnn_sincos(float x)
     };
     return out;
 }
+
+/* All at once; the loop vectorises. */
+RRNN_UNUSED static inline void rrnn_sincos_all(const float x[], uint32_t count,
+                                               rrnn_sincos_t out[])
+{
+    uint32_t i;
+    for (i = 0U; i < count; ++i) {
+        out[i] = rrnn_sincos(x[i]);
+    }
+}
