@@ -92,8 +92,8 @@ def _exact(exact: Programme) -> str:
 def _certified(options: Options, close: float, longest: float | None) -> str:
     if options.exact:
         how = (
-            f"bit for bit, on {HOST_CASES} cases (`test/`) and on a few of them at every"
-            " start-up; with `-ffp-contract=off` and without `-ffast-math` the"
+            f"bit for bit, on {HOST_CASES} cases (`test/`) and on a few of them at"
+            " every start-up; with `-ffp-contract=off` and without `-ffast-math` the"
             " operations are those of the model, one by one"
         )
     else:

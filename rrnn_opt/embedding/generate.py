@@ -12,12 +12,12 @@ from rrnn_opt.embedding.build_files import build_files
 from rrnn_opt.embedding.fmu import fmu
 from rrnn_opt.embedding.kernel import Kernel, kernel, pose
 from rrnn_opt.embedding.layouts import arduino
-from rrnn_opt.embedding.manifest import facts
+from rrnn_opt.embedding.manifest import claim_files, facts
 from rrnn_opt.embedding.onboard import Onboard, onboard_files
 from rrnn_opt.embedding.options import Options
 from rrnn_opt.embedding.package import Package, with_manifest
 from rrnn_opt.embedding.programme import Programme, programme
-from rrnn_opt.embedding.step_bound import longest_step
+from rrnn_opt.embedding.step_bound import longest_step, safe_step
 from rrnn_opt.embedding.target.files import target_files
 from rrnn_opt.embedding.vectors import (
     SELFTEST_CASES,
@@ -87,9 +87,10 @@ def generate(
     core = kernel(dynamics)
     exact = programme(dynamics) if wanted.fallback else None
     form = dynamics.formulation
-    longest = None
+    longest, safe = None, None
     if network is not None and form is not None:
         longest = longest_step(network, form, row_norm)
+        safe = safe_step(network, form, row_norm)
     wanted = wanted.below(longest)
     vectors = reference_vectors(core, wanted)
     parts = _Parts(
@@ -115,7 +116,12 @@ def generate(
     )
     files["MISRA.md"] = documents.misra(parts.words)
     files["LICENSE"] = render.verbatim("APACHE-2.0.md")
-    return with_manifest(wanted.prefix, files, facts(core, wanted, network, longest))
+    claims, certificates = claim_files(safe)
+    said = facts(core, wanted, network, longest) | {
+        "claims": claims,
+        "single_rounding_error": parts.close,
+    }
+    return with_manifest(wanted.prefix, files | certificates, said)
 
 
 def _sources(parts: _Parts) -> dict[str, str]:

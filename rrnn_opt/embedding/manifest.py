@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import asdict
 from importlib import metadata
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 from rrnn_opt.dynamics import DiscreteDynamics
 from rrnn_opt.embedding.kernel import Field, Kernel
 from rrnn_opt.embedding.options import Options
+from rrnn_opt.embedding.step_claim import SafeStep
 from rrnn_opt.networks import Network
 
 
@@ -73,3 +75,30 @@ def _row(field: Field) -> dict[str, Any]:
         "unit": field.unit,
         "meaning": field.meaning,
     }
+
+
+def claim_files(safe: SafeStep | None) -> tuple[list[dict[str, Any]], dict[str, str]]:
+    """What is proved of exactly this network and step: manifest rows, certificates.
+
+    Args:
+        safe: the claim behind the longest step; None without one.
+    """
+    if safe is None:
+        return [], {}
+    proof = safe.proof()
+    verdict = proof.settle()
+    path = f"claims/{proof.claim.id}.json"
+    row = {
+        "id": proof.claim.id,
+        "statement": proof.claim.statement,
+        "source": proof.claim.source,
+        "dynamics": proof.claim.order,
+        "jacobian": proof.claim.jacobian,
+        "verdict": verdict.status,
+        "trust": verdict.trust,
+        "assumptions": list(verdict.assumptions),
+        "certificate": None if verdict.certificate is None else path,
+    }
+    if verdict.certificate is None:
+        return [row], {}
+    return [row], {path: json.dumps(verdict.certificate, sort_keys=True) + "\n"}
