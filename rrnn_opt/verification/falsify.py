@@ -30,6 +30,7 @@ _DENOMINATORS = (1, 4, 12, 64, 1000)
 _NOISE = 1e-9  # what floating point may break by rounding alone
 _NEAR = 0.05  # a strict goal breaks where it is 0: perhaps at a rounded neighbour
 _STEPS = 60
+_RANKS = 3  # elements of the goal that are tried from every start, the worst first
 _OFFERS = 64
 
 
@@ -55,7 +56,7 @@ def propose(claim: Claim, *, budget_s: float, seed: int) -> Iterator[dict[str, A
 
 
 def candidates(
-    claim: Claim, *, seed: int = 0, samples: int = 128, starts: int = 8
+    claim: Claim, *, seed: int = 0, samples: int = 128, starts: int = 10
 ) -> Iterator[Point]:
     """Points in the domain that break the goal in floating point.
 
@@ -73,8 +74,10 @@ def candidates(
     points = sorted(
         (breach.draw(rng) for _ in range(samples)), key=breach.score, reverse=True
     )
-    for rank, start in enumerate(points[:starts]):
-        for best in (_improved(start, breach, rank=rank), start):
+    ranks = range(min(claim.goal.expression.numel(), _RANKS))
+    for start in points[:starts]:
+        found = (_improved(start, breach, rank=rank) for rank in ranks)
+        for best in itertools.chain(found, [start]):
             for point in _simpler(claim, best):
                 if breach.score(_column(claim, point)) > _threshold(claim):
                     yield point
@@ -116,8 +119,8 @@ def _improved(start: Array, breach: Breach, *, rank: int | None = None) -> Array
     Args:
         start: where to begin.
         breach: the claim.
-        rank: 0 for the worst element at the start, 1 for the next, and so on
-            around; None to leave the goal alone.
+        rank: 0 for the worst element at the start, 1 for the next, and so on;
+            None to leave the goal alone.
     """
 
     def part(index: int, x: Array) -> Any:
@@ -125,7 +128,7 @@ def _improved(start: Array, breach: Breach, *, rank: int | None = None) -> Array
         return np.nan_to_num(np.asarray(result, dtype=np.float64))
 
     order = np.argsort(part(0, start).ravel())
-    worst = int(order[(rank or 0) % len(order)])
+    worst = int(order[rank or 0])
     constraints = [
         {
             "type": kind,

@@ -102,6 +102,8 @@ def _identity(
 ) -> dict[str, Any] | None:
     target = goal if setting.sense[0] in "=>" else -goal
     first = max(2, target.total_degree())
+    if first > MAX_DEGREE:
+        raise UndecidedError(f"degree {first} of the goal is too high")
     for degree in range(first, min(first + 2, MAX_DEGREE + 1)):
         left = end - time.monotonic()
         if left <= 0:

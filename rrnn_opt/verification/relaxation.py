@@ -8,6 +8,7 @@ for their coefficients.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -19,6 +20,8 @@ from rrnn_opt.errors import UndecidedError
 Monomial = tuple[tuple[int, int], ...]
 Sparse = dict[Monomial, Any]
 
+MOST_FACTORS = 200
+"""Of more inequalities that belong together, no products are made."""
 MAX_PARTS = 4000
 """Products and multipliers of one relaxation."""
 
@@ -161,6 +164,8 @@ def _products(
 def _tuples(
     setting: Semialgebraic, group: Sequence[tuple[int, Polynomial]], degree: int
 ) -> Iterator[tuple[tuple[int, ...], Polynomial]]:
+    if len(group) > MOST_FACTORS:
+        return
     crowded = len(group) > _FEW[2]
     for count in (n for n in _FEW if n == 2 or len(group) <= _FEW[n]):
         for chosen in itertools.combinations_with_replacement(group, count):
@@ -182,6 +187,9 @@ _FEW = {2: 40, 3: 20, 4: 10}
 def _monomials(
     setting: Semialgebraic, generators: Sequence[int], degree: int
 ) -> Iterator[Polynomial]:
+    count = math.comb(len(generators) + degree, degree) if degree >= 0 else 0
+    if count > MAX_PARTS:
+        raise UndecidedError(f"{count} monomials of degree {degree} are too many")
     ring = setting.forms.ring
     cosines = {cosine for cosine, _ in setting.forms.circles}
     for d in range(degree + 1):

@@ -65,6 +65,8 @@ def _proof(
     target = goal if setting.sense[0] == ">" else -goal
     strict = "=" not in setting.sense
     even = max(2, 2 * ((target.total_degree() + 1) // 2))
+    if even > MAX_DEGREE:
+        raise UndecidedError(f"degree {even} of the goal is too high")
     for degree in range(even, min(even + 2, MAX_DEGREE) + 1, 2):
         parts = relaxation(setting, target, degree, strict=strict)
         proof = _search(parts, end)
