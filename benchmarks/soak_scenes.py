@@ -10,11 +10,12 @@ from pathlib import Path
 from rrnn_opt.planning import Problem
 from rrnn_opt.robot import Robot
 from rrnn_opt.scene.library import SCENARIOS, scenario
-from rrnn_opt.validation.studies import generality
+from rrnn_opt.validation.studies.arms import arm
+from rrnn_opt.validation.studies.clutter import scenes
 
 MBM = Path(__file__).parents[1] / "tests" / "data" / "mbm"
 BUILTIN = ("pa10", "panda")
-URDF = ("kinova", "xarm7", "baxter")
+URDF = ("kinova", "xarm7", "baxter, both arms")
 Maker = Callable[[int], Problem]
 
 
@@ -41,7 +42,7 @@ def benchmark(index: int) -> Problem:
 
 def cluttered(robot: Robot) -> Maker:
     """A new random scene each time, joint goals."""
-    return lambda index: next(generality.scenes(robot, 1, index))
+    return lambda index: next(scenes(robot, 1, index))
 
 
 def makers(folder: Path) -> dict[str, Maker]:
@@ -55,5 +56,5 @@ def makers(folder: Path) -> dict[str, Maker]:
     for name in BUILTIN:
         found[f"{name}, clutter"] = cluttered(Robot.builtin(name))
     for name in URDF:
-        found[f"{name}, clutter"] = cluttered(generality.arm(name, folder))
+        found[f"{name}, clutter"] = cluttered(arm(name, folder))
     return found

@@ -32,6 +32,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="rollouts started at most (default %(default)s)",
     )
+    parser.add_argument(
+        "--improve",
+        type=seconds,
+        default=0.0,
+        metavar="S",
+        help="seconds to go on shortening after the first solution",
+    )
     parser.add_argument("--out", metavar="DIR", help="write plan.json and reports here")
     parser.add_argument("--seed", type=seed, default=0, help="default 0")
 
@@ -63,6 +70,7 @@ def run(args: argparse.Namespace, out: Output) -> int:
         max_explorations=args.max_explorations,
         on_progress=_progress(),
         keep_trees=target is not None,
+        improve_s=args.improve,
     )
     document = result.to_dict()
     out.document(document)
@@ -89,6 +97,8 @@ def summary(document: dict[str, Any]) -> str:
         rows.append(("goal error [m or rad]", f"{error:.2e}"))
     if document["trajectory"]:
         rows.append(("duration [s]", f"{document['trajectory']['duration']:.3f}"))
+    if stats["path_length"] is not None:
+        rows.append(("path length [rad or m]", f"{stats['path_length']:.3f}"))
     counts = "{explorations} ({random} random, {heuristic} heuristic)".format(**stats)
     times = "{plan_time_s:.4f} / {retime_time_s:.3f} / {time_s:.3f}".format(**stats)
     rows += [("explorations", counts), ("plan / retime / total [s]", times)]

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,72 +13,21 @@ from rrnn_opt.errors import ProblemError, RetimeError
 from rrnn_opt.motion import Delivery, Trajectory, deliver
 from rrnn_opt.planning.feasibility import Infeasible, OpenGoals, blocked, open_goals
 from rrnn_opt.planning.problem import Problem
-from rrnn_opt.planning.refine import refine
+from rrnn_opt.planning.refine import length, refine
 from rrnn_opt.planning.request import pack
-from rrnn_opt.planning.result import PlanResult, PlanStats
+from rrnn_opt.planning.result import PlanResult
 from rrnn_opt.planning.rollout_library import point_goals, thinned
 from rrnn_opt.planning.rollout_settings import SingleRollout
+from rrnn_opt.planning.run import Run
 from rrnn_opt.planning.runtime_library import Runtime, Search
 from rrnn_opt.planning.searches import open_search, runtime_for
 from rrnn_opt.planning.settings import PLANNERS, PlannerSettings, RandomRnn
-from rrnn_opt.planning.structs import SearchCounts
 from rrnn_opt.planning.trees import tree_document
 
 Array = NDArray[np.float64]
 Progress = Callable[[str, int], None]
 SLICE_S = 0.02
 DEFAULT_EXPLORATIONS = 20_000
-
-
-@dataclass
-class _Run:
-    """What a plan has so far; a result can be made of it at any time."""
-
-    problem: Problem
-    seed: int
-    planner: str
-    settings: PlannerSettings
-    begin: float
-    counts: SearchCounts | None = None
-    activity: tuple[float, ...] = ()
-    path: Array | None = None
-    trajectory: Trajectory | None = None
-    certificate: dict[str, Any] | None = None
-    keep_trees: bool = False
-    trees: dict[str, Any] = field(default_factory=dict)
-    times: dict[str, Any] = field(default_factory=dict)
-
-    def result(self, status: str, message: str, **more: Any) -> PlanResult:
-        if self.certificate is not None:
-            more["certificate"] = self.certificate
-        return PlanResult(
-            status=status,
-            message=message,
-            problem=self.problem.to_dict(),
-            robot=self.problem.robot.to_dict(),
-            seed=self.seed,
-            planner=self.planner,
-            path=self.path,
-            trajectory=None if self.trajectory is None else self.trajectory.to_dict(),
-            stats=self._stats(),
-            trees=self.trees,
-            **more,
-        )
-
-    def _stats(self) -> PlanStats:
-        stats = PlanStats(time_s=time.perf_counter() - self.begin, **self.times)
-        if self.counts is None:
-            return stats
-        counts = self.counts
-        return replace(
-            stats,
-            random=counts.random,
-            heuristic=counts.heuristic,
-            nodes=counts.nodes,
-            rollout_steps=counts.rollout_steps,
-            goal_postures=counts.goal_postures,
-            memory_cell=self.activity,
-        )
 
 
 def plan(
@@ -93,6 +40,7 @@ def plan(
     max_explorations: int = DEFAULT_EXPLORATIONS,
     on_progress: Progress | None = None,
     keep_trees: bool = False,
+    improve_s: float = 0.0,
 ) -> PlanResult:
     """Plan, shorten, retime and certify.
 
@@ -107,6 +55,8 @@ def plan(
         time_limit: seconds for the search, or None.
         max_explorations: rollouts started at most.
         on_progress: called with the stage and the explorations so far.
+        improve_s: seconds to go on shortening after the first solution, within
+            which a clock decides the path; 0 leaves it to the settings' rounds.
         keep_trees: also hand out both trees, nodes and parents, for pictures.
 
     Returns:
@@ -120,11 +70,13 @@ def plan(
     chosen = settings or _settings(planner)
     if max_explorations < 1 or (time_limit is not None and not time_limit > 0.0):
         raise ProblemError("budget", "explorations and time limit must be positive")
-    run = _Run(problem, seed, planner, chosen, time.perf_counter())
-    run.keep_trees = keep_trees
+    if not 0.0 <= improve_s < np.inf:
+        raise ProblemError("improve", f"must be seconds, zero or more, not {improve_s}")
+    begin = time.perf_counter()
+    run = Run(problem, seed, planner, chosen, begin, improve_s, keep_trees=keep_trees)
     begin = time.perf_counter()
     runtime = runtime_for(problem.robot, chosen)
-    run.times["compile_time_s"] = time.perf_counter() - begin
+    run.figures["compile_time_s"] = time.perf_counter() - begin
     return _planned(run, runtime, time_limit, max_explorations, on_progress)
 
 
@@ -136,7 +88,7 @@ def _settings(planner: str) -> PlannerSettings:
 
 
 def _planned(
-    run: _Run,
+    run: Run,
     runtime: Runtime,
     time_limit: float | None,
     budget: int,
@@ -164,7 +116,7 @@ def _planned(
 
 
 def _search(
-    run: _Run,
+    run: Run,
     search: Search,
     time_limit: float | None,
     budget: int,
@@ -183,7 +135,7 @@ def _search(
                 counts = search.counts()
                 on_progress("plan", counts.random + counts.heuristic)
     finally:
-        run.times["plan_time_s"] = time.perf_counter() - begin
+        run.figures["plan_time_s"] = time.perf_counter() - begin
         run.counts = search.counts()
         run.activity = tuple(float(x) for x in search.activity())
         if run.keep_trees:
@@ -191,7 +143,7 @@ def _search(
     return status
 
 
-def _why(status: str, run: _Run, goals: OpenGoals) -> str:
+def _why(status: str, run: Run, goals: OpenGoals) -> str:
     if status == "budget_exhausted" and isinstance(run.settings, SingleRollout):
         return "the single rollout did not reach the goal; this proves nothing"
     if status == "no_goal_posture" and isinstance(run.settings, RandomRnn):
@@ -205,7 +157,7 @@ def _why(status: str, run: _Run, goals: OpenGoals) -> str:
 
 
 def _delivered(
-    run: _Run, search: Search, runtime: Runtime, goals: OpenGoals
+    run: Run, search: Search, runtime: Runtime, goals: OpenGoals
 ) -> PlanResult:
     """Refine, retime and certify the path found; a path is kept in any case."""
     run.path = search.path()
@@ -216,10 +168,16 @@ def _delivered(
         return open_search(runtime, run.settings, packed)
 
     if isinstance(run.settings, RandomRnn):
-        run.path = refine(search, another, run.settings, run.seed)
+        refined = refine(
+            search, another, run.settings, run.seed, improve_s=run.improve_s
+        )
+        run.path = refined.path
+        run.figures["refinements"] = refined.rounds
+        run.figures["first_path_length"] = refined.first_length
     else:
         run.path = thinned(search, run.path)
-    run.times["refine_time_s"] = time.perf_counter() - begin
+    run.figures["path_length"] = length(run.path)
+    run.figures["refine_time_s"] = time.perf_counter() - begin
     try:
         delivery = _timed(run, run.path)
     except RetimeError as error:
@@ -235,7 +193,7 @@ def _delivered(
     )
 
 
-def _timed(run: _Run, path: Array) -> Delivery[check.TrajectoryCertificate]:
+def _timed(run: Run, path: Array) -> Delivery[check.TrajectoryCertificate]:
     """Retime and certify; the certificate's own time is left out."""
     problem, robot = run.problem.to_dict(), run.problem.robot.to_dict()
     begin, checking = time.perf_counter(), 0.0
@@ -250,4 +208,4 @@ def _timed(run: _Run, path: Array) -> Delivery[check.TrajectoryCertificate]:
     try:
         return deliver(path, run.problem.robot.limits, certify)
     finally:
-        run.times["retime_time_s"] = time.perf_counter() - begin - checking
+        run.figures["retime_time_s"] = time.perf_counter() - begin - checking

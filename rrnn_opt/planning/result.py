@@ -44,6 +44,9 @@ class PlanStats:
         rollout_steps: certified steps.
         goal_postures: roots that the inverse kinematics found.
         memory_cell: activity before each exploration.
+        refinements: searches after the first, for a shorter path.
+        first_path_length: of the path as found, rad or m in joint space.
+        path_length: of the path kept.
         time_s: whole call.
         plan_time_s: search with its step certificates.
         refine_time_s: shortening, further searches included.
@@ -57,6 +60,9 @@ class PlanStats:
     rollout_steps: int = 0
     goal_postures: int = 0
     memory_cell: tuple[float, ...] = ()
+    refinements: int = 0
+    first_path_length: float | None = None
+    path_length: float | None = None
     time_s: float = 0.0
     plan_time_s: float = 0.0
     refine_time_s: float = 0.0
@@ -78,6 +84,9 @@ _PLAIN = (
     "nodes",
     "rollout_steps",
     "goal_postures",
+    "refinements",
+    "first_path_length",
+    "path_length",
     "time_s",
     "plan_time_s",
     "refine_time_s",

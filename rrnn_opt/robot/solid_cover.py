@@ -1,7 +1,9 @@
 """Few spheres that contain a triangulated surface, by bisection.
 
-A part of the surface is held by the smallest ball about its corners; a ball is
-convex, so it holds the triangles too.  The part whose ball bulges most out of
+A part of the surface is held by a ball about its corners: the smallest one, or
+one whose centre lies deeper in the solid, which is larger but bulges less (for a
+flat part of radius s by s^2 / 2t at depth t).  A ball is convex, so it holds the
+triangles too.  The part whose ball bulges most out of
 the solid is cut in two by a plane across one of its principal axes, whichever
 leaves the smaller bulge (triangles on the plane are clipped, so nothing is
 lost), until no ball bulges by more than is wanted or there are enough of them.
@@ -20,6 +22,8 @@ from rrnn_opt.robot.tree import Array
 PADDING = 2e-4
 """Added to every radius, m: neighbours then overlap along the cut between them,
 so that the surface can be shown to be covered by cutting triangles finitely."""
+DEPTHS = (0.0, 0.5, 1.0, 2.0)
+"""How deep a ball's centre is tried, times the radius of the smallest ball."""
 _STEPS = 64
 _DIRECTIONS = 96
 _SAMPLES = 6000
@@ -123,10 +127,26 @@ def cover_solid(
 
 
 def _part(corners: Array, surface: Surface) -> _Part:
-    center, radius = smallest_ball(corners.reshape(-1, 3))
-    radius += PADDING
-    bulge = float(surface.outside(center + radius * _directions()).max())
-    return _Part(corners, center, radius, bulge)
+    points = corners.reshape(-1, 3)
+    middle, least = smallest_ball(points)
+    inwards = _inwards(corners)
+    best: _Part | None = None
+    for depth in DEPTHS:
+        center = middle + depth * least * inwards
+        radius = float(np.linalg.norm(points - center, axis=1).max()) + PADDING
+        bulge = float(surface.outside(center + radius * _directions()).max())
+        if best is None or bulge < best.bulge:
+            best = _Part(corners, center, radius, bulge)
+    assert best is not None
+    return best
+
+
+def _inwards(corners: Array) -> Array:
+    """Mean inward normal of triangles, (3,); shorter where they turn."""
+    a, b, c = (corners[:, k] for k in range(3))
+    across = np.cross(b - a, c - a)
+    area = float(np.linalg.norm(across, axis=1).sum())
+    return np.asarray(-across.sum(axis=0) / max(area, 1e-300))
 
 
 def smallest_ball(points: Array) -> tuple[Array, float]:

@@ -5,7 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
-from rrnn_opt.planning import Problem, RandomRnn
+from rrnn_opt.errors import ProblemError
+from rrnn_opt.planning import Problem, RandomRnn, plan
 from rrnn_opt.planning.refine import length, refine
 from rrnn_opt.scene.library import scenario
 
@@ -48,7 +49,7 @@ def test_refine_takes_the_shortest(pa10_runtime, window_problem, open_search, co
     def refined():
         with open_search(pa10_runtime, problem, seed=1) as search:
             raw = solved(search)
-            path = refine(search, another, settings, 1)
+            path = refine(search, another, settings, 1).path
             pieces = itertools.pairwise(path)
             assert all(search.segment_free(a, b) for a, b in pieces)
             return raw, path
@@ -66,3 +67,21 @@ def test_a_segment_with_clearance_is_harder(pa10_runtime, window_problem, open_s
         same = problem.start + 1e-6
         assert search.segment_free(problem.start, same, clearance=0.9 * gap)
         assert not search.segment_free(problem.start, same, clearance=1.1 * gap)
+
+
+def test_improving_goes_on_until_its_seconds_are_spent(window_problem):
+    problem = Problem.from_dict(
+        window_problem(start=scenario("window").problem(42)["start"])
+    )
+    settings = RandomRnn(refinements=0)
+    first = plan(problem, seed=2, settings=settings)
+    better = plan(problem, seed=2, settings=settings, improve_s=0.5)
+    assert first.stats.refinements == 0
+    assert better.stats.refinements > 3
+    assert better.solved
+    assert better.stats.first_path_length == first.stats.first_path_length
+    assert better.stats.path_length < first.stats.path_length
+    assert better.stats.path_length == pytest.approx(length(better.path))
+    assert 0.5 <= better.stats.refine_time_s < 5.0
+    with pytest.raises(ProblemError, match="improve"):
+        plan(problem, improve_s=-1.0)

@@ -10,7 +10,7 @@ import pytest
 from rrnn_opt.planning import Problem, plan
 from rrnn_opt.robot import Robot
 from rrnn_opt.robot.spheres import fit_spheres
-from rrnn_opt.validation.studies.generality import scenes
+from rrnn_opt.validation.studies.clutter import scenes
 
 TIPS = ("left_gripper", "right_gripper")
 
