@@ -72,7 +72,8 @@ def table1(rows: Rows) -> Cells:
         verdict = "reproduced" if mine["ours"] == paper else NOT
         if mine["ours"] == "unknown":
             verdict = IMPOSSIBLE
-        result.append(cell("I", row, column, paper, mine["ours"], verdict, mine["saw"]))
+        ours, saw, runs = mine["ours"], mine["saw"], mine["runs"]
+        result.append(cell("I", row, column, paper, ours, verdict, saw, n=runs))
     return result
 
 

@@ -87,8 +87,9 @@ def run_part(
         progress: told (finished, all).
     """
     study = studies(trials)[name]
-    rows = results.finish(study, workers=workers, progress=progress)
-    return part_of(name, rows, trials=trials)
+    found = results.run(study, workers=workers, progress=progress)
+    lost = [row for row in found if row.lost]
+    return part_of(name, [*results.rows(study), *lost], trials=trials)
 
 
 def part_of(name: str, rows: Iterable[Row], *, trials: int) -> Part:

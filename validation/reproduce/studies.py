@@ -47,7 +47,8 @@ class Marks:
         row, column = case.parameters["row"], case.parameters["column"]
         (model,) = (m for m in MODELS if m.row == row)
         found = table_1.mark(model, column, runs=self.runs)
-        return {"row": row, "column": column, "ours": found.ours, "saw": found.reason}
+        said = {"ours": found.ours, "saw": found.reason, "runs": self.runs}
+        return {"row": row, "column": column, **said}
 
 
 @dataclass(frozen=True)

@@ -195,3 +195,31 @@ def test_files_of_the_report(tmp_path):
     assert part.digest in (tmp_path / "reproduce.md").read_text()
     files = write_cells([part], tmp_path)
     assert json.loads(files[0].read_text())["cells"][0]["ours"] == 1.0
+
+
+class Lost:
+    """Workers that lose every case."""
+
+    def rows(self, study, cases, seed):
+        yield from (Row(case.key, {}, "WorkerError: died", lost=True) for case in cases)
+
+
+def test_a_part_whose_workers_died_says_so(tmp_path):
+    with Results(tmp_path) as results:
+        part = run_part("fig4", results, trials=4, workers=Lost())
+    assert {cell["ours"] for cell in part.cells} == {None}
+    assert "WorkerError: died" in page(
+        [part], drawn={}, environment=environment(), damaged=0
+    )
+
+
+def test_words_are_compared_with_words():
+    rows = [
+        Row(case.key, {**case.parameters, "ours": "Yes", "saw": "a check"})
+        for case in studies(50)["table1"]
+    ]
+    cells = part_of("table1", rows, trials=50).cells
+    assert len(cells) == 56
+    for cell in cells:
+        wanted = "reproduced" if cell["paper"] == "Yes" else "not reproduced"
+        assert (cell["ours"], cell["verdict"], cell["n"]) == ("Yes", wanted, 5)
