@@ -29,6 +29,7 @@ bench: $(VENV)/test.stamp
 	$(PY) -m benchmarks
 
 soak: $(VENV)/test.stamp
+	$(PY) -m benchmarks.interval_soundness
 	$(PY) -m benchmarks.soak
 
 docs: $(VENV)/dev.stamp

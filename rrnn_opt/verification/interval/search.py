@@ -9,7 +9,6 @@ they are shared out among threads (the kernels run outside Python's lock).
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 
 from rrnn_opt.verification.interval.forms import Forms, middle
 from rrnn_opt.verification.interval.kernel import BATCH, Array, Enclosure
+from rrnn_opt.verification.interval.senses import breaks, keeps
 from rrnn_opt.verification.interval.tree import MEAN_VALUE, NATURAL, OPEN, Codes
 
 Mask = NDArray[np.bool_]
@@ -182,32 +182,6 @@ def _done(question: Question, enclosure: Enclosure) -> Mask:
     empty = broken[question.goals :].any(axis=0)
     done: Mask = (goal | empty) & enclosure.bounded
     return done
-
-
-def keeps(lower: Array, upper: Array, senses: Sequence[str]) -> Mask:
-    """Where an enclosure shows that a sense holds, (n_out, B)."""
-    test = {
-        ">=0": lambda a, b: a >= 0.0,
-        ">0": lambda a, b: a > 0.0,
-        "<=0": lambda a, b: b <= 0.0,
-        "<0": lambda a, b: b < 0.0,
-        "==0": lambda a, b: (a == 0.0) & (b == 0.0),
-    }
-    rows = zip(lower, upper, senses, strict=True)
-    return np.array([test[s](a, b) for a, b, s in rows])
-
-
-def breaks(lower: Array, upper: Array, senses: Sequence[str]) -> Mask:
-    """Where an enclosure shows that a sense fails, (n_out, B)."""
-    test = {
-        ">=0": lambda a, b: b < 0.0,
-        ">0": lambda a, b: b <= 0.0,
-        "<=0": lambda a, b: a > 0.0,
-        "<0": lambda a, b: a >= 0.0,
-        "==0": lambda a, b: (a > 0.0) | (b < 0.0),
-    }
-    rows = zip(lower, upper, senses, strict=True)
-    return np.array([test[s](a, b) for a, b, s in rows])
 
 
 def _axes(

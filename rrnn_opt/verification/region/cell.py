@@ -94,9 +94,10 @@ def certify_cell(
     found, volume = _Found(), 1.0
     while low.shape[1]:
         last = time.monotonic() > end or volume < 1e-15
-        done, axes = _level(tools, law, low, high, found, volume, last)
+        late = end + 0.25 * seconds
+        done, axes = _level(tools, law, low, high, found, volume, last, late)
         low, high = low[:, ~done], high[:, ~done]
-        if last:
+        if last or time.monotonic() > late:
             break
         low, high = halved(low, high, axes[~done])
         volume /= 2.0
@@ -111,9 +112,13 @@ def _level(
     found: _Found,
     volume: float,
     last: bool,
+    late: float,
 ) -> tuple[np.ndarray, Codes]:  # type: ignore[type-arg]
+    """Look at all boxes of a level, or at those for which there is time."""
     done, axes = np.zeros(low.shape[1], bool), np.zeros(low.shape[1], np.uint8)
     for start in range(0, low.shape[1], BATCH):
+        if start and time.monotonic() > late:
+            break
         part = slice(start, start + BATCH)
         bound = tools.singular(low[:, part], high[:, part])
         wanted = law.floor if last else np.maximum(law.floor, QUALITY * bound.centre)

@@ -96,7 +96,7 @@ def certify_region(
     _require(region, kinematics, epsilon, error, grid)
     law = Law(epsilon, error, delta, gain, floor)
     tools = Tools.of(kinematics, frame)
-    pair = joints or _telling(tools, region)
+    pair = joints or telling_joints(tools, region)
     end = time.monotonic() + budget_s
     cells = _cells(tools, law, region, pair, grid, end, jobs)
     return RegionMap(
@@ -107,7 +107,7 @@ def certify_region(
         error,
         floor,
         tuple(cells),
-        _assumptions(law),
+        assumptions_of(law),
         time.monotonic() - begin,
     )
 
@@ -126,7 +126,8 @@ def _require(
         raise RrnnError("certify_region: epsilon, error and grid must be positive")
 
 
-def _assumptions(law: Law) -> tuple[str, ...]:
+def assumptions_of(law: Law) -> tuple[str, ...]:
+    """What the theorem needs besides the certified bounds."""
     given = () if law.delta is None else (f"velocity bounds {law.delta:g} from 0",)
     return (
         "the target is at rest",
@@ -136,7 +137,7 @@ def _assumptions(law: Law) -> tuple[str, ...]:
     )
 
 
-def _telling(tools: Tools, region: Region) -> tuple[int, int]:
+def telling_joints(tools: Tools, region: Region) -> tuple[int, int]:
     """The two joints that loosen the bound most, at 64 drawn points."""
     active = list(tools.arm.joints)
     half = np.array(region.half_widths)[active][:, None]
