@@ -20,9 +20,10 @@ NAMES = ("planar3", "pa10")
 
 QUICK = [
     "C1", "C2", "C3", "C4", "C12", "C13", "C14", "C15", "C16", "C17", "C18", "C23",
-    "C23p", "C25", "C26", "C29", "C31", "C34", "C37", "C39",
+    "C23p", "C26", "C29", "C34", "C37", "C39",
 ]  # fmt: skip
 """Statements that need no solver."""
+OF_ROBOTS = ["C1", "C12", "C13", "C14", "C15", "C17", "C18"]
 
 
 def settle(names, robot):
@@ -41,9 +42,11 @@ def again(certificate):
     return checked.holds and checked.status == certificate["status"]
 
 
-@pytest.mark.parametrize("robot", NAMES)
-def test_verdicts_are_the_expected_ones(robot):
-    for one in settle(QUICK, robot):
+@pytest.mark.parametrize(
+    ("names", "robot"), [(QUICK, "planar3"), (OF_ROBOTS, "pa10")], ids=NAMES
+)
+def test_verdicts_are_the_expected_ones(names, robot):
+    for one in settle(names, robot):
         assert again(one.verdict.certificate)
         if one.verdict.status == "REFUTED":
             assert one.verdict.witness
