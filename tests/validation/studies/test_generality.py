@@ -1,0 +1,58 @@
+"""The study of random scenes counts what its rows say, and goes on."""
+
+import pytest
+
+from rrnn_opt.planning import Problem
+from rrnn_opt.robot import Robot
+from rrnn_opt.validation.studies import generality
+from rrnn_opt.validation.studies.clutter import OBSTACLES, scenes
+from rrnn_opt.validation.studies.generality_page import page
+from rrnn_opt.validation.studies.peer import rrt_connect
+
+ROW = {"arm": "a", "joints": 6, "spheres": 9, "plan_s": 1e-3, "all_s": 1e-2}
+ROW |= {"peer_s": 2e-3, "status": "solved", "peer": True}
+
+
+def test_the_page_tells_who_solved_what():
+    lost = {**ROW, "status": "time_limit"}
+    rows = [ROW, {**ROW, "peer": False}, lost, {**lost, "peer": False}]
+    text = page(rows, "command", (2.0, 6.0))
+    (line,) = [line for line in text.splitlines() if line.startswith("| a |")]
+    cells = [cell.strip() for cell in line.strip("|").split("|")]
+    assert cells[3] == "2/4"
+    assert cells[7] == "2 time_limit"
+    assert (cells[8], cells[10]) == ("2/4", "1")
+
+
+def test_scenes_are_those_of_their_seed():
+    robot = Robot.builtin("pa10")
+    one, two = (list(scenes(robot, 2, seed=5)) for _ in range(2))
+    for a, b in zip(one, two, strict=True):
+        assert a.to_dict() == b.to_dict()
+        assert len(a.scene) == OBSTACLES
+    assert one[0].to_dict() != next(scenes(robot, 1, seed=6)).to_dict()
+
+
+def test_a_stopped_study_goes_on(tmp_path, monkeypatch):
+    robot, asked = Robot.builtin("pa10"), []
+    monkeypatch.setattr(generality, "arm", lambda name, out: robot)
+
+    def measured(name: str, index: int, problem: Problem, peer: bool):
+        asked.append(index)
+        return {**ROW, "arm": name, "scene": index}
+
+    monkeypatch.setattr(generality, "measured", measured)
+    first = list(generality.run(["pa10"], tmp_path, 2, seed=1))
+    both = list(generality.run(["pa10"], tmp_path, 3, seed=1))
+    assert asked == [0, 1, 2]
+    assert both[:2] == first
+
+
+def test_rrt_connect_reaches_a_goal_and_counts_its_checks():
+    pytest.importorskip("ompl", reason="the extra test brings ompl")
+    problem = next(scenes(Robot.builtin("pa10"), 1, seed=5))
+    goal = problem.goals[0].joints
+    run = rrt_connect(problem, goal, 10.0)
+    assert run.solved
+    assert run.checks > 10
+    assert 0.0 < run.seconds < run.wall_s
