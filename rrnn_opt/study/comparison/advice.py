@@ -63,7 +63,7 @@ def _deadline(table: TimeTable) -> list[str]:
         return ["**1 kHz**: nobody solved every problem of the streams within 1 ms."]
     return [
         "**1 kHz**: within 1 ms on every problem of the streams (medians over the "
-        f"passes): {', '.join(kept)}."
+        f"passes): {'; '.join(kept)}."
     ]
 
 
