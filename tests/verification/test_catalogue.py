@@ -45,6 +45,11 @@ def test_so_it_is_with_obstacle_rows():
     assert wrong.status == "UNKNOWN"
 
 
+def test_so_it_is_where_the_folded_hessian_is_rounded():
+    form = rr.formulations.infinity_norm(kinematics("planar3"))
+    assert settle(equilibrium_is_optimum(form)).status == "PROVED"
+
+
 def test_a_claim_without_meaning_is_left_out():
     kin = kinematics("planar3")
     network = rr.networks.PrimalDual()

@@ -26,7 +26,8 @@ def equilibrium_is_optimum(form: Formulation) -> Proof | None:
     for g = dL/du; each term of the first sum is the scalar lemma of the
     projection, the second vanishes as both satisfy the rows, and each term of
     the third is the lemma of complementary pairs.  P is positive semidefinite by
-    the declaration of a formulation.
+    the declaration of a formulation.  Where I - P is not exact in doubles the
+    claim is of (5), and not of the last bits of the network that folds it.
 
     Args:
         form: any formulation whose bounds are on both sides or on none.
@@ -104,11 +105,24 @@ class _Parts:
         return _Parts(form, y, tuple(low for low, _ in both))
 
     @property
+    def drive(self) -> ca.SX:
+        """U - dL/du: the graph's own, with I - P folded, where that is exact."""
+        law, P = self.form.lagrangian, self.form.qp.hessian
+        folded = np.eye(len(P)) - P
+        exact = all(
+            Fraction(float(f)) == int(i == j) - Fraction(float(P[i, j]))
+            for (i, j), f in np.ndenumerate(folded)
+        )
+        return law.drive if exact else self.form.decision.sx - law.gradient
+
+    @property
     def residual(self) -> list[ca.SX]:
         """Of (5): for u, for the equality rows, for the inequality rows."""
-        qp, law = self.form.qp, self.form.lagrangian
+        qp, law, u = self.form.qp, self.form.lagrangian, self.form.decision.sx
         n, p, m = qp.P.size1(), qp.b.size1(), qp.h.size1()
-        return list(ca.vertsplit(law.residual, [0, n, n + p, n + p + m]))
+        _, rows, pairs = ca.vertsplit(law.residual, [0, n, n + p, n + p + m])
+        moved = ca.SX(Box(qp.lb, qp.ub).project(self.drive))
+        return [moved - u, rows, pairs]
 
     @property
     def hypotheses(self) -> tuple[Hypothesis, ...]:
@@ -140,7 +154,7 @@ class _Parts:
         """Of the sum in the docstring of the claim."""
         qp, law, y = self.form.qp, self.form.lagrangian, self.y.sx
         place = {h.id: k for k, h in enumerate(self.hypotheses)}
-        u, drive = self.form.decision.sx, law.drive
+        u, drive = self.form.decision.sx, self.drive
         found: list[Term] = []
         for i, bounded in enumerate(self.bounded):
             if not bounded:
