@@ -13,10 +13,10 @@ typedef struct {
 RRNN_UNUSED static inline rrnn_sincos_t rrnn_sincos(double x)
 {
     const double big = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds */
-    const int ok = fabs(x) <= 1073741824.0;
-    const double least = ok ? 2.0222662487959506e-21 : (double)NAN;
+    const double least =
+        (fabs(x) <= 1073741824.0) ? 2.0222662487959506e-21 : (double)NAN;
     const double kd = ((x * 0.6366197723675814) + big) - big;
-    const uint32_t k = (uint32_t)(int32_t)(ok ? kd : 0.0);
+    const uint32_t k = (uint32_t)(int32_t)((fabs(x) <= 1073741824.0) ? kd : 0.0);
     const double t = x - (kd * 1.5707963267341256);
     const double w = kd * 6.077100506303966e-11;
     const double r = t - w; /* r + d: the reduced argument */

@@ -17,10 +17,9 @@ typedef struct {
 RRNN_UNUSED static inline rrnn_sincos_t rrnn_sincos(float x)
 {
     const float big = 12582912.0F; /* 1.5 * 2^23: adding it rounds */
-    const int ok = fabsf(x) <= 32768.0F;
-    const float least = ok ? 0x1.0b4612p-34F : (float)NAN;
+    const float least = (fabsf(x) <= 32768.0F) ? 0x1.0b4612p-34F : (float)NAN;
     const float kd = ((x * 0x1.45f306p-1F) + big) - big;
-    const uint32_t k = (uint32_t)(int32_t)(ok ? kd : 0.0F);
+    const uint32_t k = (uint32_t)(int32_t)((fabsf(x) <= 32768.0F) ? kd : 0.0F);
     const float t = x - (kd * 0x1.921ep+0F);
     const float w = kd * 0x1.b544p-16F;
     const float r = t - w; /* r + d: the reduced argument */
