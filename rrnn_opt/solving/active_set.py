@@ -13,7 +13,7 @@ import numpy as np
 
 from rrnn_opt.emit import build, load, prologue
 from rrnn_opt.emit.active_set import FIELDS, Factor, active_set_source
-from rrnn_opt.solving.backends import solution
+from rrnn_opt.solving.backends import Told, solution
 from rrnn_opt.solving.protocol import Instance, Solution
 from rrnn_opt.solving.residual import Array, Dense, Duals
 
@@ -93,43 +93,52 @@ def _compiled(
 
 @dataclass
 class ActiveSet:
-    """The controller's exact fallback as a solver; every solve is a cold one.
+    """The controller's exact fallback as a solver.
+
+    No active set is kept from one problem to the next.  The C is compiled
+    before the clock starts, as that of a controller is; factoring counts as solving.
 
     Attributes:
+        mode: "cold" factors the Hessian in every solve; "stream" only one that
+            is not the last one.
         tolerance: KKT residual that counts as solved.
     """
 
+    mode: str = "cold"
     tolerance: float = 1e-6
     name: str = field(default="active_set", init=False)
-    mode: str = field(default="cold", init=False)
     _problem: Dense | None = field(default=None, init=False, repr=False)
     _factor: Factor | None = field(default=None, init=False, repr=False)
 
     def setup(self, instance: Instance) -> None:
-        """Take the first instance; its Hessian is factored and its C compiled."""
-        qp = Dense.of(instance.problem)
-        self._problem, self._factor = qp, Factor.of(qp.P)
-        _compiled((len(qp.q), len(qp.b), len(qp.h)), self._factor.proximal)
+        """Take the first instance; its C is compiled."""
+        self._problem = None
+        self.update(instance)
 
     def update(self, instance: Instance) -> None:
-        """Take the next instance; a Hessian that is the same is not factored again."""
+        """Take the next instance."""
         qp, last = Dense.of(instance.problem), self._problem
-        if last is None or not np.array_equal(last.P, qp.P):
-            self._factor = Factor.of(qp.P)
         self._problem = qp
+        if last is None or not np.array_equal(last.P, qp.P):
+            self._factor = None
+            _compiled((len(qp.q), len(qp.b), len(qp.h)), Factor.of(qp.P).proximal)
 
     def solve(self) -> Solution:
-        """Solve and judge."""
-        if self._problem is None or self._factor is None:
+        """Factor where the mode wants it, solve and judge."""
+        qp = self._problem
+        if qp is None:
             raise ValueError("setup comes before solve")
         start = time.perf_counter()
-        raw = _run(self._problem, self._factor)
+        if self._factor is None or self.mode == "cold":
+            self._factor = Factor.of(qp.P)
+        raw = _run(qp, self._factor)
         spent = time.perf_counter() - start
         found = raw.status == SOLVED
         return solution(
-            self._problem,
+            qp,
             raw.x if found else None,
             raw.duals if found else None,
             tolerance=self.tolerance,
             time_s=spent,
+            told=Told(iterations=raw.steps, claims=found),
         )

@@ -28,6 +28,10 @@ SESSIONS: dict[str, Callable[[], Solver]] = {
 NETWORKS = ("PrimalDual", "DualNetwork", "LviPdnn", "Hildreth")
 OURS = "rrnn"
 """A network of any dense QP, ``solving.dense``."""
+EXACT = "active_set"
+"""The exact fallback of our generated controllers."""
+SMALL = 60
+"""Unknowns that ours take at most: they are made for control, not for size."""
 
 _PACKAGES = {
     "highs": "highspy",
@@ -101,6 +105,8 @@ class Entrant:
             return _network(self.name, mode, problems)
         if self.name.startswith("casadi-"):
             return CasadiConic(self.name.removeprefix("casadi-"), mode)
+        if self.name == EXACT:
+            return solving.ActiveSet(mode=mode)
         if mode == STREAM:
             return SESSIONS[self.name]()
         if self.name == OURS:
@@ -113,9 +119,10 @@ def entrants() -> tuple[Entrant, ...]:
     from qpsolvers import available_solvers
 
     found = [_ours(name) for name in NETWORKS]
-    found.append(
-        Entrant(OURS, "network", "Apache-2.0", "rrnn_opt", (COLD, WARM), largest=60)
-    )
+    found += [
+        _small(OURS, "network", (COLD, WARM)),
+        _small(EXACT, "active set", (COLD, STREAM)),
+    ]
     names = sorted({*available_solvers} - {OURS})
     found += [_backend(name) for name in names]
     found += [_plugin(name) for name in PLUGINS]
@@ -138,6 +145,10 @@ def chosen(names: Sequence[str]) -> tuple[Entrant, ...]:
 def _ours(name: str) -> Entrant:
     modes = (COLD, STREAM)
     return Entrant(name, "network", "Apache-2.0", "rrnn_opt", modes, schemed=True)
+
+
+def _small(name: str, method: str, modes: tuple[str, ...]) -> Entrant:
+    return Entrant(name, method, "Apache-2.0", "rrnn_opt", modes, largest=SMALL)
 
 
 def _backend(name: str) -> Entrant:

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from rrnn_opt.solving import Duals, Instance, Qpsolvers, Solution, Status
+from rrnn_opt.solving import ActiveSet, Duals, Instance, Qpsolvers, Solution, Status
 from rrnn_opt.solving.backends import Told, solution
 from rrnn_opt.solving.conic import PLUGINS, CasadiConic
 from rrnn_opt.solving.proximal import PiqpSession, ProxqpSession
@@ -56,6 +56,7 @@ def answers(solver, problems):
 @pytest.mark.parametrize(
     "solver",
     [
+        *(ActiveSet(mode) for mode in ("cold", "stream")),
         PiqpSession(),
         ProxqpSession(),
         *(CasadiConic(name, mode) for name in SOUND for mode in ("cold", "stream")),
@@ -154,6 +155,24 @@ def test_modes_are_for_sequences_and_networks_for_schemes(stream):
     assert by_name["PrimalDual"].modes_for(drawn) == ()
     assert by_name["PrimalDual"].modes_for(stream) == ("cold", "stream")
     assert by_name["clarabel"].modes_for(stream) == ("cold",)
+
+
+def test_our_exact_solver_enters_and_is_judged_like_the_others(stream):
+    ours, daqp = chosen(["active_set", "daqp"])
+    assert (ours.method, ours.modes_for(stream)) == ("active set", ("cold", "stream"))
+    assert ours.modes_for(first_of("dense", 1)) == ()
+    for mode in ours.modes:
+        found, other = (
+            measured_set(who, mode, stream, passes=2) for who in (ours, daqp)
+        )
+        assert found["status"] == other["status"]
+        assert set(found["status"]) == {"solved", "primal_infeasible"}
+        assert found["claims"] == [word == "solvable" for word in stream.truth]
+        solved = [k for k, word in enumerate(stream.truth) if word == "solvable"]
+        assert all(found["primal"][k] <= 1e-9 for k in solved)
+        assert all(found["dual"][k] <= 1e-9 for k in solved)
+    drawn = measured_set(ours, "cold", first_of("degenerate", 2), passes=1)
+    assert drawn["status"] == ["solved", "solved"]
 
 
 def test_a_study_is_kept_summed_up_and_reported(tmp_path, stream):
