@@ -12,7 +12,10 @@ from rrnn_opt.check.reading import Array
 from rrnn_opt.check.targets import Target
 
 ROWS = 200_000
-"""Rows (box, pair) begun with at a time: bounds memory, decides nothing."""
+"""Rows (box, pair) of one target at a time: bounds memory, decides nothing."""
+
+ALL_ROWS = 4_000_000
+"""Rows of all targets begun with at a time; a row waiting takes 32 bytes."""
 
 
 class Leaf(NamedTuple):
@@ -110,7 +113,8 @@ def whole(live: list[Target], n: int) -> list[Batch]:
     pairs = sum(target.count for target in live)
     if not pairs:
         return []
-    size = max(1, ROWS // pairs)
+    widest = max(target.count for target in live)
+    size = max(1, min(ALL_ROWS // pairs, ROWS // max(1, widest)))
     batches = []
     for first in range(0, n, size):
         boxes = Boxes.whole(first, min(first + size, n))

@@ -52,3 +52,20 @@ def test_a_margin_larger_than_the_window_proves_nothing(window_problem):
     assert result.exit_code == 1
     if result.status != "infeasible":
         assert "no proof" in result.message or "proves nothing" in result.message
+
+
+@pytest.mark.slow
+def test_twenty_thousand_obstacles(window_problem):
+    """Behind the base, where this motion does not go: it stays proved."""
+    places = np.random.default_rng(0).uniform(
+        [-3.0, -2.0, -1.0], [-1.4, 2.0, 2.0], (20_000, 3)
+    )
+    eggs = [
+        {"name": f"egg{i}", "type": "sphere", "radius": 0.02, "position": p.tolist()}
+        for i, p in enumerate(places)
+    ]
+    data = window_problem(half=0.2)
+    result = plan(
+        Problem.from_dict({**data, "obstacles": data["obstacles"] + eggs}), seed=1
+    )
+    assert result.status == "solved", result.message
