@@ -33,11 +33,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_study_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of every command that runs a study."""
-    parser.add_argument("--jobs", type=count, default=1, help="worker processes")
-    parser.add_argument("--dask", metavar="ADDRESS", help="of a Dask scheduler instead")
-    parser.add_argument("--out", metavar="DIR", default="runs/{}", help="%(default)s")
-    parser.add_argument("--resume", action="store_true", help="go on in DIR")
-    parser.add_argument("--seed", type=seed, default=0, help="default 0")
+    parser.add_argument(
+        "--jobs", type=count, default=1, help="worker processes; default %(default)s"
+    )
+    add("--dask", metavar="ADDRESS", help="of a Dask scheduler instead")
+    add("--out", metavar="DIR", default="runs/{}", help="%(default)s")
+    add("--resume", action="store_true", help="go on in DIR")
+    add("--seed", type=seed, default=0, help="default 0")
 
 
 def run(args: argparse.Namespace, out: Output) -> int:

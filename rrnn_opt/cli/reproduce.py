@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 from typing import Any
@@ -28,6 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--trials", type=count, default=50, help="default 50")
     add_study_arguments(parser)
+    parser.set_defaults(jobs=min(2, os.cpu_count() or 1))
 
 
 def run(args: argparse.Namespace, out: Output) -> int:

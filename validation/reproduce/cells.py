@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.study import wilson
-from rrnn_opt.validation.tables import table_3, table_4
+from rrnn_opt.validation.tables import table_2, table_3, table_4
 from rrnn_opt.validation.tables.cell import judged
 from rrnn_opt.validation.tables.printed import printed, printed_values
-from rrnn_opt.validation.tables.table_2 import interval
 from rrnn_opt.validation.tables.tracking import ENTRIES, SIGMAS
 from rrnn_opt.validation.tables.trials import SCENARIOS
 
@@ -89,11 +88,11 @@ def table2(rows: Rows) -> Cells:
                 result.append(cell(*where, None, NOT, NO_ROWS, n=0))
                 continue
             errors = found[key][k]
-            ours, bounds = float(errors.mean()), interval(errors.mean(axis=0))
-            verdict = judged(paper, ours, bounds, larger_is_better=False)
+            ours, bounds = float(errors.mean()), table_2.interval(errors.mean(axis=0))
+            word = table_2.verdict(entry, paper, ours, bounds)
             reason = f"{entry.note}; noise, circles and start are of our choice"
             result.append(
-                cell(*where, ours, verdict, reason, bounds=bounds, n=errors.size)
+                cell(*where, ours, word, reason, bounds=bounds, n=errors.size)
             )
     return result
 

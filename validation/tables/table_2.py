@@ -20,10 +20,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.validation.tables import tracking
-from rrnn_opt.validation.tables.cell import Cell, judged
+from rrnn_opt.validation.tables.cell import Cell, Verdict, judged
 from rrnn_opt.validation.tables.page import head, spelled
 from rrnn_opt.validation.tables.search import Trial, search
-from rrnn_opt.validation.tables.tracking import CIRCLES, ENTRIES, SIGMAS, Runner
+from rrnn_opt.validation.tables.tracking import (
+    CIRCLES,
+    ENTRIES,
+    SIGMAS,
+    Entry,
+    Runner,
+)
 
 GOALS = (0.0005, 0.0015, 0.005)
 """What we set out to reach at each sigma, m."""
@@ -133,10 +139,26 @@ def _cell(row: Result, sigma: int, command: str) -> Cell:
         ours=ours,
         interval=bounds,
         n=row.errors[sigma].size,
-        verdict=judged(paper, ours, bounds, larger_is_better=False),
+        verdict=verdict(entry, paper, ours, bounds),
         reason=entry.note,
         command=command,
     )
+
+
+def verdict(
+    entry: Entry, paper: float, ours: float, bounds: tuple[float, float]
+) -> Verdict:
+    """``judged``; a rival that errs less than in the paper is not the paper's rival.
+
+    Args:
+        entry: the row.
+        paper: its number, m.
+        ours: our mean, m.
+        bounds: of ours.
+    """
+    found = judged(paper, ours, bounds, larger_is_better=False)
+    rival = entry.kind == "rival"
+    return "not reproduced" if rival and found == "better" else found
 
 
 def best(found: Sequence[Result], sigma: int) -> tuple[Result, Result, bool]:

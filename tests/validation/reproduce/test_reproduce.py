@@ -223,3 +223,11 @@ def test_words_are_compared_with_words():
     for cell in cells:
         wanted = "reproduced" if cell["paper"] == "Yes" else "not reproduced"
         assert (cell["ours"], cell["verdict"], cell["n"]) == ("Yes", wanted, 5)
+
+
+def test_a_rival_that_errs_less_than_in_the_paper_is_not_better():
+    cells = part_of("table2", error_rows(1e-6), trials=5).cells
+    rivals = ("Method 1", "Method 2", "Method 3")
+    for cell in cells:
+        rival = cell["row"].startswith(rivals)
+        assert cell["verdict"] == ("not reproduced" if rival else "better")
