@@ -33,9 +33,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_study_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of every command that runs a study."""
-    parser.add_argument(
-        "--jobs", type=count, default=1, help="worker processes; default %(default)s"
-    )
+    add = parser.add_argument
+    add("--jobs", type=count, default=1, help="worker processes; default %(default)s")
     add("--dask", metavar="ADDRESS", help="of a Dask scheduler instead")
     add("--out", metavar="DIR", default="runs/{}", help="%(default)s")
     add("--resume", action="store_true", help="go on in DIR")
