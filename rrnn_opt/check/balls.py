@@ -60,7 +60,9 @@ def replay(
     Args:
         graph: claim as read.
         point: a number for every (variable, element).
-        skip: an output that must be defined at the point, whatever its signs.
+        skip: an output that must be defined at the point, whatever its signs;
+            then every other value of the graph must be defined there as well,
+            even one that no output needs.
 
     Raises:
         UndecidedError: the graph is not defined there, holds an operation
@@ -104,6 +106,8 @@ def _replayed(
             values.append(number(_constant(step.const)))
         else:
             values.append(_applied(step, values, table))
+    if skip is not None and not all(_is_defined(value) for value in values):
+        raise _OpenError
     return Replay(
         tuple(_signs(row, signed=k != skip) for k, row in enumerate(results)),
         trust,
@@ -131,9 +135,11 @@ def _applied(step: Step, values: Sequence[Number], table: Table) -> Number:
 def _signs(row: Sequence[Number], *, signed: bool) -> tuple[int, ...]:
     if signed:
         return tuple(_sign(value) for value in row)
-    if not all(isinstance(x, flint.fmpq) or x.is_finite() for x in row):
-        raise _OpenError
     return ()
+
+
+def _is_defined(value: Number) -> bool:
+    return isinstance(value, flint.fmpq) or bool(value.is_finite())
 
 
 def _sign(value: Number) -> int:
