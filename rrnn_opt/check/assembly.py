@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 from rrnn_opt.check.claim_document import ClaimGraph, Element, Port, Step
+from rrnn_opt.check.polynomial import may_be_undefined
 from rrnn_opt.errors import UndecidedError
 
 MAX_STEPS = 200_000
@@ -66,6 +67,12 @@ class Assembly:
         """Ask for a value; its place in the column of results."""
         self._results.append(value)
         return len(self._results) - 1
+
+    def ask_partial(self) -> None:
+        """Ask for the value of every operation so far that may be undefined."""
+        for step in self._steps:
+            if may_be_undefined(step.op):
+                self.result(step.out)
 
     def graph(self) -> ClaimGraph:
         """The whole, with one output."""

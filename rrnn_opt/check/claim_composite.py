@@ -20,7 +20,8 @@ have the claimed sign term by term (nothing, for an equation).  The terms::
 A ref is the number of an expression.  Factors are never negative, seen term by
 term, unless what they multiply is an equation.  The hypotheses and the domain
 of a lemma must hold at its arguments: each is seen term by term, or exceeds a
-hypothesis of the claim by what is.
+hypothesis of the claim by what is.  An operation that is not defined everywhere
+(1/x) may occur in lemmas and expressions only where the claim has it itself.
 
 Assumptions of all parts and the rules are united, and the weakest trust wins.
 """

@@ -58,9 +58,23 @@ def combine(
         raise UndecidedError("one list of terms for every element of the goal")
     for element, terms in enumerate(data["elements"]):
         build.element(element, terms)
+    build.assembly.ask_partial()
     forms = normal_forms(build.assembly.graph())
+    if forms.partial_atoms != _own_partial(graph):
+        raise UndecidedError(
+            "an operation of a lemma or of the proof may be undefined where it is used:"
+            " only those of the claim itself are assumed to be defined"
+        )
     _Signs(graph, build, forms).require()
     return forms.partial
+
+
+def _own_partial(graph: ClaimGraph) -> int:
+    """Number of different values of the claim's graph that may be undefined."""
+    assembly = Assembly(graph.inputs)
+    assembly.splice(graph, assembly.variables())
+    assembly.ask_partial()
+    return normal_forms(assembly.graph()).partial_atoms
 
 
 def _as_claim(graph: ClaimGraph, data: Mapping[str, Any]) -> dict[str, Any]:

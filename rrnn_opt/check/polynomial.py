@@ -78,6 +78,16 @@ class NormalForms:
     angles: tuple[tuple[Polynomial, Polynomial, Polynomial], ...]
     circles: tuple[tuple[int, Polynomial], ...]
 
+    @property
+    def partial_atoms(self) -> int:
+        """Number of different atoms that are not defined everywhere."""
+        return sum(op in _SOMEWHERE for op, _, _ in self.atoms)
+
+
+def may_be_undefined(op: str) -> bool:
+    """Whether an operation is not defined for all operands."""
+    return op in _SOMEWHERE
+
 
 def normal_forms(
     graph: ClaimGraph, *, outputs: Sequence[int] = (0,), work: int = WORK
