@@ -43,6 +43,7 @@ class DecayGraph:
         rate: decay rate, or contraction factor when discrete.
         discrete: whether time is discrete.
         added: hypotheses that the source does not state, "id: statement".
+        worded: ids of all hypotheses; they are in words only.
         fingerprint: computed from all of this.
     """
 
@@ -50,6 +51,7 @@ class DecayGraph:
     rate: fmpq
     discrete: bool
     added: tuple[str, ...]
+    worded: tuple[str, ...]
     fingerprint: str
 
 
@@ -79,7 +81,8 @@ def read_decay(data: Mapping[str, Any]) -> DecayGraph:
     content = ["decay", vertices, rate, discrete, order, jacobian, hypotheses]
     fingerprint = hashlib.sha256(json.dumps(content).encode()).hexdigest()
     extra = tuple(f"{name}: {text}" for name, text, added in assumed if added)
-    return DecayGraph(matrices, speed, discrete, extra, fingerprint)
+    words = tuple(name for name, _, _ in assumed)
+    return DecayGraph(matrices, speed, discrete, extra, words, fingerprint)
 
 
 def judge(graph: DecayGraph, payload: Any, document: Any) -> Answer:
@@ -115,9 +118,13 @@ def judge_spectrum(graph: DecayGraph, payload: Any, document: Any) -> Answer:
     """An eigenvalue of the named vertex decays too slowly, for certain.
 
     Raises:
-        UndecidedError: none does.
+        UndecidedError: none does, or the claim has hypotheses, which in words
+            nobody can hold against the vertex.
         DocumentError: the witness is not readable.
     """
+    if graph.worded:
+        named = ", ".join(graph.worded)
+        raise UndecidedError(f"hypotheses in words only ({named}) cannot be replayed")
     try:
         (number,) = document["witness"]["vertex"]
         index = int(read_rational(number))

@@ -72,6 +72,15 @@ def test_added_hypotheses_are_assumptions():
     assert checked.assumptions == ("A1: no bound is active",)
 
 
+def test_no_vertex_refutes_what_is_claimed_under_hypotheses_in_words():
+    """x' = x from x = 0 decays at any rate; words cannot be held against that."""
+    zero = Hypothesis("H1", "x(0) = 0")
+    grows = exact_matrix([[1]])
+    checked = spectrum(claim(1, grows, hypotheses=(zero,)))
+    assert checked.status == "UNKNOWN"
+    assert "words" in checked.reason
+
+
 def test_the_checker_computes_the_claims_own_fingerprint():
     stated = claim("1/3", order="first-order", jacobian="frozen")
     block = decay_document(stated, "lmi")["claim"]
