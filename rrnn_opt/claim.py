@@ -172,7 +172,8 @@ class Claim:
         """SHA-256 of what is claimed: graph, senses, domain, dynamics.
 
         Two claims of one fingerprint state the same of variables of the same
-        names; id, words and source are not part of it.
+        names.  Of words only those are part of it that are assumed: what
+        hypotheses say that the source does not state, or that have no relation.
         """
         names = [s.name for s in self.variables]
         ranges = sorted(
@@ -185,6 +186,9 @@ class Claim:
             ranges,
             self.order,
             self.jacobian,
-            [[h.relation is None and h.statement, h.added] for h in self.hypotheses],
+            [
+                [(h.relation is None or h.added) and h.statement, h.added]
+                for h in self.hypotheses
+            ],
         ]
         return hashlib.sha256(json.dumps(content).encode()).hexdigest()

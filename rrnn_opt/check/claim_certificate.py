@@ -164,8 +164,8 @@ def check_certificate(document: Mapping[str, Any]) -> CheckedCertificate:
         stated = block["fingerprint"]
     except (KeyError, TypeError, ValueError) as error:
         raise DocumentError(WHERE, f"not readable ({error!r})") from error
-    form = block.get("form", "graph") if isinstance(block, dict) else None
-    if kind != KIND or form not in FORMS or method not in FORMS[form][1]:
+    form = str(block.get("form", "graph")) if isinstance(block, dict) else ""
+    if kind != KIND or form not in FORMS or str(method) not in FORMS[form][1]:
         what = f"kind '{kind}', form '{form}' or method '{method}'"
         raise DocumentError(WHERE, f"{what} is unknown")
     read, methods = FORMS[form]
@@ -177,7 +177,7 @@ def check_certificate(document: Mapping[str, Any]) -> CheckedCertificate:
         reason = "the tape is not that of the claim which the fingerprint names"
         return CheckedCertificate(UNKNOWN, reason, text, seal=_SEAL)
     try:
-        answer = methods[method](graph, data.get("payload"), data)
+        answer = methods[str(method)](graph, data.get("payload"), data)
         status, assumptions = _settled(graph, answer, data)
     except UndecidedError as error:
         return CheckedCertificate(UNKNOWN, error.reason, text, seal=_SEAL)

@@ -91,7 +91,7 @@ def read_claim(data: Mapping[str, Any]) -> ClaimGraph:
         ranges = [_range(row, inputs) for row in data["domain"]]
         assumed = [_assumed(row) for row in data["hypotheses"]]
         order, jacobian = data["order"], data["jacobian"]
-    except (KeyError, TypeError, ValueError, ZeroDivisionError) as error:
+    except (KeyError, TypeError, ValueError, ArithmeticError) as error:
         raise DocumentError(WHERE, f"not readable ({error!r})") from error
     _require(len(senses) == len(outputs) > 0, "one sense for every output")
     related = sum(not worded for _, _, worded, _ in assumed)
@@ -104,7 +104,7 @@ def read_claim(data: Mapping[str, Any]) -> ClaimGraph:
         sorted((i, [str(x) for x in (*low, *high)]) for i, low, high in ranges),
         order,
         jacobian,
-        [[worded and text, added] for _, text, worded, added in assumed],
+        [[(worded or added) and text, added] for _, text, worded, added in assumed],
     ]
     fingerprint = hashlib.sha256(json.dumps(content).encode()).hexdigest()
     domain = _domain(ranges)

@@ -54,6 +54,8 @@ def _value(
     if step.const is not None:
         return on.constant(step.const)
     operands = [known[k] for k in step.args]
+    if len(operands) != (1 if step.op in (*UNARY, "not") else 2):
+        raise UndecidedError(f"operation '{step.op}' has bad operands")
     if step.op in UNARY or step.op in BINARY:
         return getattr(on, step.op)(*operands)
     if step.op == "pow":

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import base64
 import copy
+import hashlib
 import pickle
+import zlib
 from dataclasses import replace
 from fractions import Fraction
 
@@ -254,3 +257,32 @@ def test_what_the_source_does_not_state_is_an_assumption():
     stated = certificate_document(unaltered, "identity", witness=POINT)
     stated["claim"]["hypotheses"][0][3] = False
     assert check_certificate(stated).status == "UNKNOWN"  # another claim
+
+
+def test_what_is_assumed_cannot_be_reworded():
+    rank = Hypothesis("A1", "J has full rank", Relation(x, ">0"), added=True)
+    document = certificate_document(
+        claim(IDENTITY, hypotheses=(rank,)), "identity", witness=POINT
+    )
+    assert check_certificate(document).assumptions == ("A1: J has full rank",)
+    document["claim"]["hypotheses"][0][1] = "nothing much"
+    checked = check_certificate(document)
+    assert (checked.status, checked.holds) == ("UNKNOWN", False)
+
+
+@pytest.mark.parametrize("method", ["interval", "terms", "smt", "sos", "identity"])
+def test_an_operation_with_too_few_operands_proves_nothing(method):
+    bounded = tuple(
+        Range(s.name, (Fraction(0),) * s.size, (Fraction(1),) * s.size) for s in (X, Y)
+    )
+    stated = claim(x * y[0], ">=0", domain=bounded)
+    document = certificate_document(stated, method)
+    for row in document["claim"]["tape"]:
+        row[2] = row[2][:1] if row[0] == "mul" else row[2]
+    document["claim"]["fingerprint"] = read_claim(document["claim"]).fingerprint
+    leaf = {"nodes": 1, "sha256": hashlib.sha256(b"\xff").hexdigest()}
+    leaf["tree"] = base64.b64encode(zlib.compress(b"\xff")).decode()
+    document["payload"] = {"solvers": ["z3"], "elements": []} | leaf
+    checked = check_certificate(document)
+    assert checked.status == "UNKNOWN"
+    assert "operation 'mul'" in checked.reason
