@@ -57,7 +57,7 @@ def case(kinematics: Kinematics) -> ClaimCase:
     mended = Claim(
         id="C15",
         source="eq. (15)-(16)",
-        statement="without noise e - epsilon lam is constant: the error does not grow",
+        statement="without noise e - epsilon lam is constant: e moves as lam does",
         variables=(q, u),
         goal=Relation(-velocity + J @ u.sx, "==0"),
         order="second-order",

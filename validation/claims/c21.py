@@ -72,7 +72,8 @@ def _trap() -> Claim:
     """The field points into q1 in [-0.02, 0], q2 in [-1.62, -1.52] on its faces.
 
     Joint 1 pushes upwards in the whole box, and stops at its limit q1 = 0; joint
-    2 turns back at both of its faces; |e|^2 > 0.0049 in the whole box.
+    2 turns back at both of its faces; |e|^2 > 0.0049 and det J = sin(q2) < 0 in
+    the whole box.
     """
     q1, q2 = scalars("q1 q2")
 
@@ -91,7 +92,9 @@ def _trap() -> Claim:
         statement="a box of postures with regular J and |e| > 0.07 that (18) never "
         "leaves: the field points inwards on its faces",
         variables=(q1, q2),
-        goal=Relation(ca.vertcat(first, below, -above, size - 0.0049), ">0"),
+        goal=Relation(
+            ca.vertcat(first, below, -above, size - 0.0049, -ca.sin(q2.sx)), ">0"
+        ),
         domain=(
             Range("q1", (Fraction(-1, 50),), (Fraction(0),)),
             Range("q2", (Fraction(lowest),), (Fraction(highest),)),

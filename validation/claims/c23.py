@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import casadi as ca
+
 from rrnn_opt.claim import Claim, Relation
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.verification import ClaimCase, Given, Mutation, Proof, Repair
 from rrnn_opt.verification.document import Witness
+from rrnn_opt.verification.lemmas import clip
 from rrnn_opt.verification.vocabulary import (
     added,
     not_negative,
@@ -71,16 +74,16 @@ def case(kinematics: Kinematics) -> ClaimCase:
     )
 
 
-def _first_order() -> Proof:
-    """Q' <= c x at x = 0 is q' <= 0; for all x, (x exp(c t))' >= 0."""
-    x, v, c = scalars("x v c")
-    claim = Claim(
+def _first_order() -> Claim:
+    """Q' = P(drive) on the interval (10) is at most c x: (x exp(c t))' >= 0."""
+    x, drive, low, fastest, c = scalars("x drive low w_high c")
+    velocity = clip(drive.sx, low.sx, ca.fmin(c.sx * x.sx, fastest.sx))
+    return Claim(
         id="C23",
         source="eq. (10), (18)",
-        statement="under the first-order law x' + c x >= 0: x >= x(0) exp(-c t)",
-        variables=(x, v, c),
-        goal=Relation(-v.sx + c.sx * x.sx, ">=0"),
-        hypotheses=(stated("H1", "q' = P <= d+ <= c x", c.sx * x.sx - v.sx),),
+        statement="under the first-order law x' + c x >= 0, whatever drives it: "
+        "(x exp(c t))' >= 0",
+        variables=(x, drive, low, fastest, c),
+        goal=Relation(-velocity + c.sx * x.sx, ">=0"),
         order="first-order",
     )
-    return Proof(claim, (), ((Given(0),),), (), {"x": [1], "v": [0], "c": [1]})

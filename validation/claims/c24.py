@@ -53,7 +53,12 @@ def case(kinematics: Kinematics) -> ClaimCase:
         variables=(x, low, high, now, then, h, L, epsilon),
         goal=Relation(now.sx - then.sx, ">=0"),
         hypotheses=(
-            added("A1", "L bounds the Hessian of V on the step", bound - then.sx),
+            added(
+                "A1",
+                "V_next <= V - h epsilon x'p + L h^2 |p|^2/2, which holds where L "
+                "bounds the Hessian of V on the step (Taylor)",
+                bound - then.sx,
+            ),
             added("A2", "h <= 2 epsilon/L", 2 * epsilon.sx - L.sx * h.sx),
             added("A3", "0 lies in Omega", ca.vertcat(-low.sx, high.sx)),
         ),

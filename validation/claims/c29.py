@@ -42,7 +42,8 @@ def _claim(least_input: Fraction) -> Claim:
     return Claim(
         id="C29",
         source="eq. (14)",
-        statement="x' >= 0 at x = 0 and x' <= 0 at x = 1: [0, 1] is invariant",
+        statement="x' >= 0 at x = 0 and x' <= 0 at x = 1, which is that [0, 1] is "
+        "invariant (Nagumo)",
         variables=(decay, excitation, stimulus),
         goal=Relation(ca.vertcat(rate(0.0), -rate(1.0)), ">=0"),
         domain=(
