@@ -18,7 +18,7 @@ from pathlib import Path
 from rrnn_opt.report import write_bytes, write_text
 
 PAGE, PREFIX = "reproduction", "reproduction_"
-COLOURS, WIDTH = 64, 1300
+COLOURS, WIDTH = 160, 1300
 """Of a picture: colours, and pixels across at most."""
 _PICTURE = re.compile(r"\((\w+\.png)\)")
 _ROWS = re.compile(r"\[(\w+\.jsonl)\]\(\1\)")
