@@ -64,7 +64,7 @@ def draw(found: Mapping[tuple[str, float], SimulationResult]) -> bytes:
         axis.set_xlabel("time [s]")
     for row in axes:
         row[0].set_ylabel("tip error [mm]")
-    axes[0][0].legend(("x", "y", "z"), fontsize=7, loc="upper left", ncols=3)
+    axes[0][0].legend(("x", "y", "z"), fontsize=7, loc="lower left", ncols=3)
     image = io.BytesIO()
     figure.savefig(image, format="png", metadata={"Software": None})
     return image.getvalue()

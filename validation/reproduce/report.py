@@ -27,12 +27,12 @@ _HEAD = (
     *("verdict", "reason"),
 )
 _ABOUT = """\
-*reproduced*: the paper's number lies in our 95 % interval, or the words agree;
-*better* and *not reproduced*: it does not, and a rival's row is never better.
-*cannot be reproduced as printed*: what is
-printed contradicts itself or leaves open what decides the outcome. Numbers of ours
-come from the rows of the studies alone; each part names the command and a digest of
-its rows, which stand beside this page as JSON lines and in `rows/` as Parquet."""
+*reproduced*: the paper's number lies in our 95 % interval (in Table II widened by half
+of its last printed digit, 0.0005 m), or the words agree; *better* and *not reproduced*:
+it does not, and a rival's row is never better. *cannot be reproduced as printed*: what
+is printed contradicts itself or leaves open what decides the outcome. Numbers of
+ours come from the rows of the studies alone; each part names the command and a digest
+of its rows, which stand beside this page as JSON lines and in `rows/` as Parquet."""
 
 
 def write_report(

@@ -58,8 +58,8 @@ def studies(trials: int) -> dict[str, Study]:
     """
     planning = PlanningTrials(trials=trials, printed=min(trials, PRINTED_MOST))
     return {
-        "table1": Marks(max(4, min(20, trials // 10))),
-        "table2": Errors(trials, 12 if trials <= 50 else 40),
+        "table1": Marks(max(4, min(20, 2 * trials // 5))),
+        "table2": Errors(trials, 12 if trials < 50 else 40),
         "table3": planning,
         "table4": planning,
         "fig3": Curves(max(2, min(20, trials // 2))),

@@ -17,7 +17,9 @@ from rrnn_opt.validation.reproduce.run import (
     write_cells,
     write_rows,
 )
+from rrnn_opt.validation.tables import table_2
 from rrnn_opt.validation.tables.printed import printed, printed_values, rows_of
+from rrnn_opt.validation.tables.tracking import ENTRIES
 from rrnn_opt.validation.tables.trials import SCENARIOS, TRIALS
 
 VERDICTS = {
@@ -222,7 +224,7 @@ def test_words_are_compared_with_words():
     assert len(cells) == 56
     for cell in cells:
         wanted = "reproduced" if cell["paper"] == "Yes" else "not reproduced"
-        assert (cell["ours"], cell["verdict"], cell["n"]) == ("Yes", wanted, 5)
+        assert (cell["ours"], cell["verdict"], cell["n"]) == ("Yes", wanted, 20)
 
 
 def test_a_rival_that_errs_less_than_in_the_paper_is_not_better():
@@ -231,3 +233,15 @@ def test_a_rival_that_errs_less_than_in_the_paper_is_not_better():
     for cell in cells:
         rival = cell["row"].startswith(rivals)
         assert cell["verdict"] == ("not reproduced" if rival else "better")
+
+
+@pytest.mark.parametrize(
+    ("paper", "ours", "word"),
+    [
+        (0.007, 0.0074, "reproduced"),
+        (0.007, 0.0076, "not reproduced"),
+        (0.010, 0.0094, "better"),
+    ],
+)
+def test_table_ii_is_compared_in_the_digits_that_it_prints(paper, ours, word):
+    assert table_2.verdict(ENTRIES["proposed"], paper, ours, (ours, ours)) == word
