@@ -162,7 +162,7 @@ def check_certificate(document: Mapping[str, Any]) -> CheckedCertificate:
         data = json.loads(text)
         kind, method, block = data["kind"], data["method"], data["claim"]
         stated = block["fingerprint"]
-    except (KeyError, TypeError, ValueError) as error:
+    except (KeyError, TypeError, ValueError, RecursionError) as error:
         raise DocumentError(WHERE, f"not readable ({error!r})") from error
     form = str(block.get("form", "graph")) if isinstance(block, dict) else ""
     if kind != KIND or form not in FORMS or str(method) not in FORMS[form][1]:
@@ -179,8 +179,9 @@ def check_certificate(document: Mapping[str, Any]) -> CheckedCertificate:
     try:
         answer = methods[str(method)](graph, data.get("payload"), data)
         status, assumptions = _settled(graph, answer, data)
-    except UndecidedError as error:
-        return CheckedCertificate(UNKNOWN, error.reason, text, seal=_SEAL)
+    except (UndecidedError, RecursionError) as error:
+        reason = getattr(error, "reason", "the proof is nested too deeply")
+        return CheckedCertificate(UNKNOWN, reason, text, seal=_SEAL)
     return CheckedCertificate(
         status, answer.reason, text, answer.trust, assumptions, seal=_SEAL
     )

@@ -54,15 +54,15 @@ def _value(
     if step.const is not None:
         return on.constant(step.const)
     operands = [known[k] for k in step.args]
+    if step.op not in (*UNARY, *BINARY, *_LOGIC, "pow"):
+        raise UndecidedError(f"operation '{step.op}' is not known to intervals")
     if len(operands) != (1 if step.op in (*UNARY, "not") else 2):
         raise UndecidedError(f"operation '{step.op}' has bad operands")
     if step.op in UNARY or step.op in BINARY:
         return getattr(on, step.op)(*operands)
     if step.op == "pow":
         return power(on, operands[0], exponent(graph, step))
-    if step.op in _LOGIC:
-        return _LOGIC[step.op](on, *operands)
-    raise UndecidedError(f"operation '{step.op}' is not known to intervals")
+    return _LOGIC[step.op](on, *operands)
 
 
 def _and(on: ModuleType, a: Value, b: Value) -> Value:

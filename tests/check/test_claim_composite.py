@@ -6,6 +6,7 @@ claim itself: 1/x in a lemma, or in a factor, proves nothing of x = 0.
 
 from __future__ import annotations
 
+import contextlib
 from fractions import Fraction
 
 import casadi as ca
@@ -13,6 +14,7 @@ import pytest
 
 from rrnn_opt.check.claim_certificate import check_certificate
 from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
+from rrnn_opt.errors import DocumentError
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.symbolic.tape import Tape
 from rrnn_opt.verification.document import certificate_document, port_row, step_row
@@ -78,3 +80,13 @@ def test_a_factor_says_nothing_where_it_is_undefined():
     checked = combined(false, lemma, (x, 1, 1 - 1 / x), [USE, given], at=ZEROS)
     assert checked.status == "UNKNOWN"
     assert "may be undefined" in checked.reason
+
+
+def test_a_proof_of_very_many_levels_is_refused():
+    square = claim(x * 0)
+    document = certificate_document(square, "identity")
+    for _ in range(400):
+        payload = {"parts": [document], "rules": [], "combination": None}
+        document = certificate_document(square, "composite", payload=payload)
+    with contextlib.suppress(DocumentError):
+        assert check_certificate(document).status == "UNKNOWN"
