@@ -55,8 +55,8 @@ class Bench:
     options: Options
 
     @staticmethod
-    def of(dynamics, **options):
-        package = generate(dynamics, prefix="arm", **options)
+    def of(dynamics, *, network=None, **options):
+        package = generate(dynamics, network=network, prefix="arm", **options)
         return Bench(package, kernel(dynamics), Options(prefix="arm", **options))
 
     @property

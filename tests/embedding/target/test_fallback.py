@@ -51,13 +51,14 @@ def provoked(bench):
     far, huge = 1e3, 1e9
     good = {"q": np.array([0.0, -0.5, 0, -2.2, 0, 1.8, 0.7]), "rd_dot": np.zeros(3)}
     fast, lost = good | {"rd_dot": np.full(3, 50.0)}, good | {"q": np.full(7, far)}
-    plain = {"h": 0.004, "tolerance": 0.05}
+    plain = {"h": 0.003, "tolerance": 0.05}
     rows = [
         ("OK", STEP, good, plain, 0.0),
         ("NOT_FINITE", STEP, good | {"rd_dot": np.full(3, np.nan)}, plain, 0.0),
         ("NOT_FINITE", STEP, good | {"q": np.full(7, -np.inf)}, plain, 0.0),
         ("NOT_FINITE", INIT, good, plain | {"h": np.nan}, 0.0),
         ("BAD_STEP_SIZE", INIT, good, plain | {"h": 0.0}, 0.0),
+        ("STEP_TOO_LONG", INIT, good, plain | {"h": 0.1}, 0.0),
         ("BAD_TOLERANCE", INIT, good, plain | {"tolerance": -1.0}, 0.0),
         ("EMPTY_LIMITS", STEP, lost, plain, 0.0),
         ("EMPTY_LIMITS", MONITOR, lost, plain, 0.0),
@@ -74,8 +75,9 @@ def provoked(bench):
 @pytest.mark.parametrize("real", ["float", "double"])
 @pytest.mark.parametrize("name", BOARDS)
 def test_every_status_is_met_on_boards(real, name, tmp_path):
-    law = rr.networks.LviPdnn(whiten=True)(rr.formulations.minimum_velocity(arm()))
-    bench = Bench.of(law, real=real)
+    rule = rr.networks.LviPdnn(whiten=True)
+    law = rule(rr.formulations.minimum_velocity(arm()))
+    bench = Bench.of(law, network=rule, real=real)
     wanted, requests = provoked(bench)
     answers, printed = bench.on_board(name, requests, tmp_path)
     assert printed == "0"
@@ -85,6 +87,7 @@ def test_every_status_is_met_on_boards(real, name, tmp_path):
     ]
     assert said == wanted
     assert hurried(bench, requests[:1], name, tmp_path) == "NO_ANSWER"
+    assert {name for name, _ in wanted} == set(STATUS) - {"NO_ANSWER"}
 
 
 def hurried(bench, request, name, folder):
