@@ -82,6 +82,7 @@ def test_bound_below_the_true_one_is_proved_and_above_it_refuted():
     assert broken.trust == "arb"
 
 
+@pytest.mark.slow
 def test_rate_of_the_saturated_planar_arm():
     verdict = certify(rate(0.05))
     assert (verdict.status, verdict.trust) == ("PROVED", "interval")

@@ -157,6 +157,7 @@ def test_modes_are_for_sequences_and_networks_for_schemes(stream):
     assert by_name["clarabel"].modes_for(stream) == ("cold",)
 
 
+@pytest.mark.slow
 def test_our_exact_solver_enters_and_is_judged_like_the_others(stream):
     ours, daqp = chosen(["active_set", "daqp"])
     assert (ours.method, ours.modes_for(stream)) == ("active set", ("cold", "stream"))
@@ -175,6 +176,7 @@ def test_our_exact_solver_enters_and_is_judged_like_the_others(stream):
     assert drawn["status"] == ["solved", "solved"]
 
 
+@pytest.mark.slow
 def test_a_study_is_kept_summed_up_and_reported(tmp_path, stream):
     own = {"short": stream, "convex": first_of("convex", 3)}
     solvers = chosen(["daqp", "osqp", "PrimalDual"])
