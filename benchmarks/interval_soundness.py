@@ -22,6 +22,7 @@ from benchmarks.interval_graphs import random_box, random_graph
 from rrnn_opt.check import interval_balls, interval_graph, intervals
 from rrnn_opt.check.claim_document import ClaimGraph, read_claim
 from rrnn_opt.claim import Claim, Relation
+from rrnn_opt.errors import UnsupportedOperationError
 from rrnn_opt.report import write_text
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.verification.document import claim_block
@@ -60,7 +61,10 @@ def batch(seed: int, graphs: int = GRAPHS, boxes: int = BOXES) -> tuple[int, int
     outside = bounded = 0
     for function in several:
         value = function(x)
-        forms = Forms.of(x, [value])
+        try:
+            forms = Forms.of(x, [value])
+        except UnsupportedOperationError:
+            continue  # a constant that overflowed: refused, hence UNKNOWN
         natural = forms.value(lower, upper)
         tighter = natural
         if forms.slope is not None:

@@ -7,6 +7,7 @@ for the host only; what runs on a robot is :mod:`rrnn_opt.emit.c99`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from rrnn_opt.emit.c99 import literal, require_identifier
@@ -92,6 +93,8 @@ def _body(tape: Tape) -> Iterator[str]:
         if step.op not in OPERATIONS:
             raise UnsupportedOperationError(step.op, "interval engine")
         if step.const is not None:
+            if not math.isfinite(step.const):
+                raise UnsupportedOperationError(f"{step.const}", "interval engine")
             constants[step.out] = step.const
         if step.op in ("sin", "cos"):
             arg = step.args[0]

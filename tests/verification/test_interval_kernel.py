@@ -83,3 +83,10 @@ def test_wrong_rows_and_unknown_operations_are_refused(waves):
     x = ca.SX.sym("x")
     with pytest.raises(UnsupportedOperationError, match="atan2"):
         IntervalKernel.of(ca.Function("f", [x], [ca.atan2(x, 1)]))
+
+
+@pytest.mark.parametrize("constant", [np.inf, -np.inf, np.nan])
+def test_a_constant_that_is_no_number_is_refused(constant):
+    x = ca.SX.sym("x")
+    with pytest.raises(UnsupportedOperationError, match="interval engine"):
+        IntervalKernel.of(ca.Function("f", [x], [ca.sin(x) + constant]))
