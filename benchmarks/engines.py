@@ -11,7 +11,7 @@ from fractions import Fraction
 
 import casadi as ca
 
-from rrnn_opt.check.claim_certificate import check_certificate
+from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
 from rrnn_opt.decay import DecayClaim, corner_matrices
 from rrnn_opt.robot import Kinematics, Robot

@@ -19,14 +19,15 @@ import flint
 import numpy as np
 
 from benchmarks.interval_graphs import random_box, random_graph
-from rrnn_opt.check import interval_balls, interval_graph, intervals
-from rrnn_opt.check.claim_document import ClaimGraph, read_claim
+from rrnn_opt.check.arithmetic import ball_intervals, intervals
+from rrnn_opt.check.claims.document import ClaimGraph, read_claim
+from rrnn_opt.check.claims.graph import boxes
 from rrnn_opt.claim import Claim, Relation
 from rrnn_opt.errors import UnsupportedOperationError
 from rrnn_opt.report import write_text
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.verification.document import claim_block
-from rrnn_opt.verification.interval.forms import Forms
+from rrnn_opt.verification.engines.interval.forms import Forms
 
 RESULT = Path(__file__).parent / "results" / "interval_soundness.json"
 INPUTS, GRAPHS, BOXES = 3, 10, 100
@@ -51,12 +52,12 @@ def main() -> int:
     return 1 if outside else 0
 
 
-def batch(seed: int, graphs: int = GRAPHS, boxes: int = BOXES) -> tuple[int, int]:
+def batch(seed: int, graphs: int = GRAPHS, count: int = BOXES) -> tuple[int, int]:
     """How many values are outside, and how many graphs are bounded on a box."""
     rng = np.random.default_rng(seed)
     x = ca.SX.sym("x", INPUTS)
     several = [random_graph(rng, inputs=INPUTS) for _ in range(graphs)]
-    ends = [random_box(rng, INPUTS) for _ in range(boxes)]
+    ends = [random_box(rng, INPUTS) for _ in range(count)]
     lower, upper = (np.stack(side, axis=1) for side in zip(*ends, strict=True))
     outside = bounded = 0
     for function in several:
@@ -97,10 +98,10 @@ def _points(
 
 def _value(graph: ClaimGraph, point: np.ndarray) -> tuple[flint.arb, flint.arb]:
     with flint.ctx.workprec(200):
-        box = {(0, i): interval_balls.interval(x, x) for i, x in enumerate(point)}
-        known = interval_graph.values(graph, interval_balls, box)
-        last = interval_graph.result(graph, 0, 0)
-        value = known[last] if last is not None else interval_balls.constant(0.0)
+        box = {(0, i): ball_intervals.interval(x, x) for i, x in enumerate(point)}
+        known = boxes.values(graph, ball_intervals, box)
+        last = boxes.result(graph, 0, 0)
+        value = known[last] if last is not None else ball_intervals.constant(0.0)
         return value[0].lower(), value[1].upper()
 
 
@@ -117,8 +118,8 @@ def _in_checker(
         for i in range(INPUTS)
     }
     with np.errstate(all="ignore"):
-        known = interval_graph.values(graph, intervals, box)
-    last = interval_graph.result(graph, 0, 0)
+        known = boxes.values(graph, intervals, box)
+    last = boxes.result(graph, 0, 0)
     value = known[last] if last is not None else intervals.constant(0.0)
     a, b = float(intervals.lower(value)[0]), float(intervals.upper(value)[0])
     return not (a > high or b < low)

@@ -17,12 +17,12 @@ import numpy as np
 
 import rrnn_opt as rr
 from benchmarks.record import Benchmark, Row
-from rrnn_opt.check.claim_certificate import check_certificate
+from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.claim import Claim, Range, Relation
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.verification.blocks import rate_claim
-from rrnn_opt.verification.interval.engine import propose
-from rrnn_opt.verification.interval.kernel import IntervalKernel
+from rrnn_opt.verification.engines.interval.engine import propose
+from rrnn_opt.verification.engines.interval.kernel import IntervalKernel
 from rrnn_opt.verification.region.reduced import ReducedArm
 from rrnn_opt.verification.region.singular import SingularBound
 

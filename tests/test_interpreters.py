@@ -15,17 +15,17 @@ import pytest
 import z3
 
 from rrnn_opt import emit
-from rrnn_opt.check.balls import replay
-from rrnn_opt.check.claim_document import read_claim
-from rrnn_opt.check.claim_smt import Script
+from rrnn_opt.check.claims.document import read_claim
+from rrnn_opt.check.claims.graph.point import replay
+from rrnn_opt.check.claims.methods.smt import Script
 from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
 from rrnn_opt.errors import UndecidedError, UnsupportedOperationError
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.symbolic.interpreter import evaluate
 from rrnn_opt.symbolic.tape import OPERATIONS, Tape
 from rrnn_opt.verification.document import claim_block
-from rrnn_opt.verification.interval.kernel import IntervalKernel
-from rrnn_opt.verification.smt_text import smt_text
+from rrnn_opt.verification.engines.interval.kernel import IntervalKernel
+from rrnn_opt.verification.engines.smt.text import smt_text
 
 A, B, R = Symbol.scalar("a"), Symbol.scalar("b"), Symbol.scalar("r")
 a, b = A.sx, B.sx

@@ -43,7 +43,7 @@ def judged(document: dict[str, Any], *, exact: bool = False) -> dict[str, Any]:
         DocumentError: it is neither a plan result nor a certificate.
     """
     from rrnn_opt.check import check_plan
-    from rrnn_opt.check.claim_certificate import KIND, check_certificate
+    from rrnn_opt.check.claims.certificate import KIND, check_certificate
 
     if document.get("kind") == KIND:
         return {"kind": "claim", **check_certificate(document).to_dict()}

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rrnn_opt.check import hermite
+from rrnn_opt.check.plans import hermite
 from rrnn_opt.errors import NotFiniteError, RetimeError, ShapeError
 from rrnn_opt.motion.trajectory import Array, Trajectory
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rrnn_opt.check import hermite
+from rrnn_opt.check.plans import hermite
 from rrnn_opt.errors import NotFiniteError, RetimeError, ShapeError
 
 Array = NDArray[np.float64]

@@ -6,16 +6,19 @@ import time
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from rrnn_opt.check.claim_answer import UNKNOWN
-from rrnn_opt.check.claim_certificate import CheckedCertificate, check_certificate
+from rrnn_opt.check.claims.answer import UNKNOWN
+from rrnn_opt.check.claims.certificate import CheckedCertificate, check_certificate
 from rrnn_opt.claim import Claim
 from rrnn_opt.decay import DecayClaim
 from rrnn_opt.errors import RrnnError, UndecidedError, UnsupportedOperationError
-from rrnn_opt.verification import falsify, lmi, normal, products, smt, sos
 from rrnn_opt.verification.document import Witness, certificate_document
-from rrnn_opt.verification.engine import Engine
-from rrnn_opt.verification.inhabit import inhabitant
-from rrnn_opt.verification.interval import engine as interval
+from rrnn_opt.verification.engines import lmi, normal
+from rrnn_opt.verification.engines.interval import engine as interval
+from rrnn_opt.verification.engines.points import falsify
+from rrnn_opt.verification.engines.points.inhabit import inhabitant
+from rrnn_opt.verification.engines.protocol import Engine
+from rrnn_opt.verification.engines.smt import engine as smt
+from rrnn_opt.verification.engines.squares import products, sos
 from rrnn_opt.verification.verdict import Verdict
 
 ENGINES: tuple[Engine, ...] = (

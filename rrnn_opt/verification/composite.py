@@ -9,8 +9,8 @@ from typing import Any
 
 import casadi as ca
 
-from rrnn_opt.check.claim_answer import UNKNOWN
-from rrnn_opt.check.claim_certificate import check_certificate
+from rrnn_opt.check.claims.answer import UNKNOWN
+from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.claim import Claim
 from rrnn_opt.decay import DecayClaim
 from rrnn_opt.errors import UndecidedError, UnsupportedOperationError
@@ -22,7 +22,7 @@ from rrnn_opt.verification.document import (
     port_row,
     step_row,
 )
-from rrnn_opt.verification.inhabit import inhabitant
+from rrnn_opt.verification.engines.points.inhabit import inhabitant
 from rrnn_opt.verification.verdict import Verdict
 
 

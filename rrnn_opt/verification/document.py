@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from rrnn_opt.check.claim_certificate import KIND
+from rrnn_opt.check.claims.certificate import KIND
 from rrnn_opt.claim import Claim, Range
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.symbolic.tape import Instruction, Port, Tape
@@ -25,7 +25,7 @@ def certificate_document(
 
     Args:
         claim: the claim.
-        method: name of a method of :mod:`rrnn_opt.check.claim_certificate`.
+        method: name of a method of :mod:`rrnn_opt.check.claims.certificate`.
         payload: what the method needs, as plain data.
         witness: numbers by variable, column by column; floats stand for the
             exact rational numbers that they are.  For "replay" the point that

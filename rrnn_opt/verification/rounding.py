@@ -28,7 +28,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.check import intervals
+from rrnn_opt.check.arithmetic import intervals
 from rrnn_opt.emit.prologue import Real, require_real
 from rrnn_opt.errors import RrnnError, ShapeError, UnsupportedOperationError
 from rrnn_opt.symbolic.tape import Instruction, Tape

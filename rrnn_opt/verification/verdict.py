@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, Literal, final
 
-from rrnn_opt.check.claim_certificate import CheckedCertificate
+from rrnn_opt.check.claims.certificate import CheckedCertificate
 from rrnn_opt.errors import RrnnError
 
 

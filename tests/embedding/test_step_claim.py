@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import rrnn_opt as rr
-from rrnn_opt.check.claim_certificate import check_certificate
+from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.dynamics import Euler
 from rrnn_opt.embedding import generate
 from rrnn_opt.embedding.step_bound import longest_step

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rrnn_opt.check import hermite
+from rrnn_opt.check.plans import hermite
 from rrnn_opt.errors import NotFiniteError, RetimeError, ShapeError
 from rrnn_opt.motion import retime
 

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 import rrnn_opt as rr
-from rrnn_opt.check.goal import nearest_goal
-from rrnn_opt.check.model import read_model
+from rrnn_opt.check.plans.goal import nearest_goal
+from rrnn_opt.check.plans.robot.model import read_model
 from rrnn_opt.planning import Problem
 from rrnn_opt.planning.goals import TipGoal, goals_from_data
 from rrnn_opt.planning.kernel import drive_functions

@@ -7,7 +7,12 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from rrnn_opt.check.distance import gap, normals, read_obstacle, signed_distance
+from rrnn_opt.check.plans.solids.distance import (
+    gap,
+    normals,
+    read_obstacle,
+    signed_distance,
+)
 from rrnn_opt.errors import DocumentError, ProblemError
 from rrnn_opt.scene import Box, HalfSpace, Mesh, Points, Scene
 from rrnn_opt.scene.broad import WIDTH, broad_phase

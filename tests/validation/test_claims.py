@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import rrnn_opt as rr
-from rrnn_opt.check.claim_certificate import check_certificate
+from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.validation.claims import IDS, c17, c18, c29, claims
 from rrnn_opt.validation.claims.expected import TABLE, surprises
 from rrnn_opt.verification import ClaimCase, Status, certify

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rrnn_opt as rr
-from rrnn_opt.check.claim_certificate import check_certificate
+from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.verification import settle
 from rrnn_opt.verification.catalogue import (
     claims,
@@ -15,7 +15,7 @@ from rrnn_opt.verification.catalogue import (
     exponential_rate,
     limits_are_kept,
 )
-from rrnn_opt.verification.rationals import exact_values
+from rrnn_opt.verification.engines.points.rationals import exact_values
 
 
 def kinematics(name):

@@ -11,12 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rrnn_opt as rr
-from rrnn_opt.check.claim_certificate import check_certificate
+from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.verification import ClaimCase, Mutation, Status, certify, verdict_row
-from rrnn_opt.verification.falsify import candidates
+from rrnn_opt.verification.engines.points.falsify import candidates
 
 X, Y = Symbol.scalar("x"), Symbol.vector("y", 2)
 x, y = X.sx, Y.sx

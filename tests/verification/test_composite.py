@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from rrnn_opt.check.claim_certificate import check_certificate
+from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
 from rrnn_opt.errors import DocumentError
 from rrnn_opt.symbolic import Symbol

@@ -8,7 +8,7 @@ from fractions import Fraction
 import casadi as ca
 import pytest
 
-from rrnn_opt.check.claim_certificate import check_certificate, digest
+from rrnn_opt.check.claims.certificate import check_certificate, digest
 from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
 from rrnn_opt.decay import DecayClaim, exact_matrix
 from rrnn_opt.errors import DocumentError

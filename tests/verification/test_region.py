@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import rrnn_opt as rr
-from rrnn_opt.check.claim_document import read_claim
-from rrnn_opt.check.polynomial import normal_forms
+from rrnn_opt.check.claims.document import read_claim
+from rrnn_opt.check.claims.graph.polynomial import normal_forms
 from rrnn_opt.claim import Claim, Relation
 from rrnn_opt.errors import DocumentError, RrnnError, ShapeError
 from rrnn_opt.report import draw_region

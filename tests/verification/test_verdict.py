@@ -6,7 +6,7 @@ import dataclasses
 
 import pytest
 
-from rrnn_opt.check.claim_certificate import check_certificate
+from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.claim import Claim, Relation
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.symbolic import Symbol

@@ -14,8 +14,8 @@ from rrnn_opt.formulation import Formulation
 from rrnn_opt.symbolic import Box, Symbol
 from rrnn_opt.verification.composite import Given, Instance, Proof, Term
 from rrnn_opt.verification.document import Witness
+from rrnn_opt.verification.engines.points.rationals import exact_values
 from rrnn_opt.verification.lemmas import complementary, projection
-from rrnn_opt.verification.rationals import exact_values
 
 
 def equilibrium_is_optimum(form: Formulation) -> Proof | None:

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from rrnn_opt.robot import Kinematics, Limits
-from rrnn_opt.verification.interval.kernel import BATCH, Array
-from rrnn_opt.verification.interval.search import halved
-from rrnn_opt.verification.interval.tree import Codes
+from rrnn_opt.verification.engines.interval.kernel import BATCH, Array
+from rrnn_opt.verification.engines.interval.search import halved
+from rrnn_opt.verification.engines.interval.tree import Codes
 from rrnn_opt.verification.region.euler import Curvature
 from rrnn_opt.verification.region.reduced import ReducedArm
 from rrnn_opt.verification.region.result import RegionCell

@@ -12,7 +12,7 @@ import numpy as np
 
 from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.robot import Kinematics, Robot
-from rrnn_opt.verification.interval.kernel import Array
+from rrnn_opt.verification.engines.interval.kernel import Array
 from rrnn_opt.verification.region.cell import Law, Tools, certify_cell
 from rrnn_opt.verification.region.result import Region, RegionCell, RegionMap
 

@@ -14,7 +14,7 @@ import casadi as ca
 import numpy as np
 
 from rrnn_opt.robot import Kinematics
-from rrnn_opt.verification.interval.kernel import Array, IntervalKernel
+from rrnn_opt.verification.engines.interval.kernel import Array, IntervalKernel
 from rrnn_opt.verification.region.reduced import ReducedArm
 
 _GROW = 1.0 + 1e-12

@@ -26,8 +26,12 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
-from rrnn_opt.verification.interval.forms import half_widths, middle
-from rrnn_opt.verification.interval.kernel import Array, Enclosure, IntervalKernel
+from rrnn_opt.verification.engines.interval.forms import half_widths, middle
+from rrnn_opt.verification.engines.interval.kernel import (
+    Array,
+    Enclosure,
+    IntervalKernel,
+)
 from rrnn_opt.verification.region.reduced import FRAME, ReducedArm
 
 _SLACK = 1e-13

@@ -1,0 +1,1 @@
+"""Numbers whose error is known: intervals, balls, sine and cosine, definiteness."""

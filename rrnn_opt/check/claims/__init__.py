@@ -1,0 +1,1 @@
+"""The judge of claims: reads a claim and its certificate, and says what holds."""

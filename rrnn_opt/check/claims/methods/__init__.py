@@ -1,0 +1,1 @@
+"""One method of judging a file; each answers, and only the certificate seals."""

@@ -1,0 +1,1 @@
+"""Freedom from collision for all times, by subdivision in time, in doubles."""

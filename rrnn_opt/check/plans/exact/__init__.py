@@ -1,0 +1,1 @@
+"""What doubles proved, proved again in balls and rationals."""

@@ -1,0 +1,1 @@
+"""Obstacles: signed distances, and half-spaces that hold them."""

@@ -1,0 +1,1 @@
+"""Engines propose certificates, one a file or folder; none of them decides."""

@@ -1,0 +1,1 @@
+"""Points that break a claim, or keep its hypotheses; exact values there."""

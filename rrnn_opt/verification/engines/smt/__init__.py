@@ -1,0 +1,1 @@
+"""Engine "smt": z3 and cvc5 on the negation of a claim."""

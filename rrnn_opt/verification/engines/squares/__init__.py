@@ -1,0 +1,1 @@
+"""Engines "sos" and "products": identities of squares and products."""

@@ -1,0 +1,253 @@
+"""Engine "products": an identity of products, found by a linear programme.
+
+Multiples >= 0 of products of the inequalities, of squares m^2 and (m + n)^2,
+(m - n)^2 of monomials, and any multiples of the equations must sum to the goal.
+A vertex of the linear programme says which parts take part; their coefficients
+are then solved for in rational numbers; where there is no such sum, the cases of a
+minimum, maximum, absolute value or comparison are tried one by one.  Sources:
+Handelman, Pac. J. Math. 132 (1988) 35-62; Ahmadi and Majumdar, SIAM J. Appl.
+Algebra Geometry 3 (2019) 193-230.
+"""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from flint import fmpq, fmpq_mat
+from scipy.optimize import linprog
+from scipy.sparse import csc_array
+
+from rrnn_opt.check.claims.document import read_claim
+from rrnn_opt.check.claims.graph.polynomial import Polynomial
+from rrnn_opt.check.claims.graph.semialgebraic import Semialgebraic, semialgebraic
+from rrnn_opt.claim import Claim
+from rrnn_opt.errors import UndecidedError
+from rrnn_opt.verification.document import certificate_document, claim_block
+from rrnn_opt.verification.engines.squares.relaxation import (
+    Relaxation,
+    generators_of,
+    relaxation,
+    relevant,
+    sparse,
+    written,
+)
+
+MAX_SQUARES = 24
+"""Monomials that enter as squares of sums."""
+MAX_DEGREE = 6
+MAX_SPLITS = 5
+"""Atoms that are taken apart into cases, one inside the other."""
+_ZERO = 1e-9
+
+
+def propose(claim: Claim, *, budget_s: float, seed: int) -> Iterator[dict[str, Any]]:
+    """One certificate of all elements, or the reason why there is none.
+
+    Raises:
+        UndecidedError: no identity of this form was found.
+    """
+    end = time.monotonic() + budget_s
+    setting = semialgebraic(read_claim(claim_block(claim)))
+    elements = []
+    for k, goal in enumerate(setting.goals):
+        proof = _proof(setting, goal, end)
+        if proof is None:
+            raise UndecidedError(f"no identity of products for element {k}")
+        elements.append(proof)
+    yield certificate_document(claim, "sos", payload={"elements": elements})
+
+
+def _proof(
+    setting: Semialgebraic, goal: Polynomial, end: float, splits: Sequence[int] = ()
+) -> dict[str, Any] | None:
+    """An identity, or two cases of an atom with one each, or None."""
+    found = _identity(setting, goal, end)
+    if found is not None or setting.sense == "==0":
+        return found
+    split = _next_split(setting, goal, splits)
+    if split is None:
+        return None
+    cases = []
+    for case in (0, 1):
+        assumed = setting.assuming(split, case)
+        part = _proof(assumed, goal, end, (*splits, split))
+        if part is None:
+            return None  # another order of the atoms is not tried
+        cases.append(part)
+    return {"split": split, "cases": cases}
+
+
+def _next_split(
+    setting: Semialgebraic, goal: Polynomial, splits: Sequence[int]
+) -> int | None:
+    """The outermost atom that matters and is not yet split."""
+    if len(splits) >= MAX_SPLITS:
+        return None
+    known = set(relevant(setting, goal))
+    atoms = [
+        k
+        for k, (case, _) in enumerate(setting.splits)
+        if k not in splits and generators_of(case[0]) <= known
+    ]
+    return atoms[-1] if atoms else None
+
+
+def _identity(
+    setting: Semialgebraic, goal: Polynomial, end: float
+) -> dict[str, Any] | None:
+    target = goal if setting.sense[0] in "=>" else -goal
+    first = max(2, target.total_degree())
+    if first > MAX_DEGREE:
+        raise UndecidedError(f"degree {first} of the goal is too high")
+    for degree in range(first, min(first + 2, MAX_DEGREE + 1)):
+        left = end - time.monotonic()
+        if left <= 0:
+            return None
+        strict = setting.sense in (">0", "<0")
+        parts = relaxation(setting, target, degree, strict=strict)
+        columns = _columns(parts, equation=setting.sense == "==0")
+        weights = combination(parts.target, columns, left)
+        if weights is not None:
+            return _written(columns, weights)
+    return None
+
+
+@dataclass(frozen=True)
+class Column:
+    """One part of the sum.
+
+    Attributes:
+        polynomial: what it adds.
+        kind: "margin", "square" or "multiplier"; the last may be negative.
+        index: factors of a square, number of an equation.
+        base: what is squared, or the monomial of a multiplier.
+    """
+
+    polynomial: Polynomial
+    kind: str
+    index: tuple[int, ...]
+    base: Polynomial
+
+
+def _columns(parts: Relaxation, *, equation: bool) -> list[Column]:
+    equalities = parts.setting.equalities
+    columns = [
+        Column(parts.reduced(m * equalities[k]), "multiplier", (k,), m)
+        for k, m in parts.multipliers
+    ]
+    if equation:
+        return columns
+    one = parts.setting.forms.ring.constant(1)
+    if parts.strict:
+        columns.append(Column(one, "margin", (), one))
+    columns += [Column(p, "square", index, one) for index, p in parts.products]
+    monomials = parts.monomials(parts.degree // 2)[1:]
+    for m in monomials:
+        columns.append(Column(parts.reduced(m * m), "square", (), m))
+    if len(monomials) < MAX_SQUARES:
+        for m, n in itertools.combinations([one, *monomials], 2):
+            for base in (m + n, m - n):
+                columns.append(Column(parts.reduced(base * base), "square", (), base))
+    return columns
+
+
+def combination(
+    target: Polynomial, columns: Sequence[Column], wall_s: float
+) -> dict[int, fmpq] | None:
+    """Exact weights of columns that sum to the target, or None.
+
+    Weights of multipliers have any sign, the others none below zero; the margin
+    is positive where there is a column for it.
+    """
+    rows, matrix, right = _equations(target, columns)
+    if not columns or rows is None:
+        return {} if target == 0 and not columns else None
+    margin = np.array([c.kind == "margin" for c in columns])
+    free = np.array([c.kind == "multiplier" for c in columns])
+    lower = np.where(free, -np.inf, 0.0)
+    upper = np.where(margin, 1.0, np.inf)
+    result = linprog(
+        np.where(margin, -1.0, np.where(free, 0.0, 1e-3)),
+        A_eq=matrix,
+        b_eq=right,
+        bounds=np.column_stack([lower, upper]),
+        method="highs-ds",
+        options={"time_limit": max(wall_s, 0.1)},
+    )
+    if result.x is None or result.status != 0:
+        return None
+    support = [int(k) for k in np.flatnonzero(np.abs(result.x) > _ZERO)]
+    weights = _solved(target, columns, support)
+    if weights is None:
+        return None
+    good = all(free[k] or w >= 0 for k, w in weights.items())
+    positive = not margin.any() or any(margin[k] and w > 0 for k, w in weights.items())
+    return weights if good and positive else None
+
+
+def _equations(target: Polynomial, columns: Sequence[Column]) -> tuple[Any, Any, Any]:
+    number: dict[Any, int] = {}
+    entries = [sparse(c.polynomial) for c in columns]
+    for entry in entries:
+        for monomial in entry:
+            number.setdefault(monomial, len(number))
+    wanted = sparse(target)
+    if not wanted.keys() <= number.keys():
+        return None, None, None
+    data = [float(x.p) / float(x.q) for entry in entries for x in entry.values()]
+    row = [number[m] for entry in entries for m in entry]
+    column = [k for k, entry in enumerate(entries) for _ in entry]
+    right = np.zeros(len(number))
+    for monomial, x in wanted.items():
+        right[number[monomial]] = float(x.p) / float(x.q)
+    shape = (len(number), len(columns))
+    return number, csc_array((data, (row, column)), shape=shape), right
+
+
+def _solved(
+    target: Polynomial, columns: Sequence[Column], support: Sequence[int]
+) -> dict[int, fmpq] | None:
+    """The weights on the support, in rational numbers."""
+    entries = [sparse(columns[k].polynomial) for k in support] + [sparse(target)]
+    monomials = list(dict.fromkeys(m for entry in entries for m in entry))
+    zero = fmpq(0)
+    table = [[entry.get(m, zero) for entry in entries] for m in monomials]
+    if not table:
+        return {}
+    reduced, rank = fmpq_mat(table).rref()
+    weights: dict[int, fmpq] = {}
+    for r in range(rank):
+        pivot = next(k for k in range(len(entries)) if reduced[r, k] != 0)
+        if pivot == len(support):
+            return None  # the support does not suffice
+        weights[support[pivot]] = reduced[r, len(support)]
+    return weights
+
+
+def _written(columns: Sequence[Column], weights: dict[int, fmpq]) -> dict[str, Any]:
+    proof: dict[str, Any] = {"margin": "0", "squares": [], "multipliers": []}
+    for number, weight in sorted(weights.items()):
+        column = columns[number]
+        if weight == 0:
+            continue
+        if column.kind == "margin":
+            proof["margin"] = str(weight)
+        elif column.kind == "square":
+            proof["squares"].append(
+                {
+                    "factors": list(column.index),
+                    "basis": [written(column.base)],
+                    "gram": [[str(weight)]],
+                }
+            )
+        else:
+            term = written(column.base * weight)
+            proof["multipliers"].append(
+                {"equality": column.index[0], "polynomial": term}
+            )
+    return proof
