@@ -17,7 +17,6 @@ BASE = (
     "numpy",
     "scipy",
     "pin",
-    "toppra",
     "matplotlib",
     "qpsolvers",
     "osqp",
