@@ -19,6 +19,7 @@ import itertools
 import json
 import multiprocessing
 import platform
+import resource
 import subprocess
 import sys
 import time
@@ -36,7 +37,7 @@ from rrnn_opt.report import write_text
 from rrnn_opt.study import wilson
 
 RESULTS = Path(__file__).parents[1] / "runs" / "soak"
-PLANS, DENSE, TIME_LIMIT = 100_000, 100, 20.0
+PLANS, DENSE, TIME_LIMIT = 100_000, 300, 20.0
 LIMITS = 1e-9
 """Excess over a limit that is rounding: m, rad, or a share of the limit."""
 
@@ -83,9 +84,15 @@ def _work(
             if time.time() > until:
                 return
             if n not in done:
-                row = judged(n, kinds)
-                file.write(json.dumps({**row, "commit": commit}) + "\n")
+                row = {**judged(n, kinds), "commit": commit, "job": job}
+                file.write(json.dumps({**row, "memory_mb": _memory_mb()}) + "\n")
                 file.flush()
+
+
+def _memory_mb() -> float:
+    """Resident memory of this process, MB (Linux)."""
+    pages = int(Path("/proc/self/statm").read_text("utf-8").split()[1])
+    return pages * resource.getpagesize() / 1e6
 
 
 def judged(n: int, kinds: dict[str, Any]) -> dict[str, Any]:
@@ -151,7 +158,13 @@ def report(found: list[dict[str, Any]]) -> str:
     kinds = list(dict.fromkeys(row["kind"] for row in found))
     groups = [(kind, [r for r in found if r["kind"] == kind]) for kind in kinds]
     body = [_line(name, mine) for name, mine in [*groups, ("all", found)] if mine]
-    header = ("scenes", "plans", "solved", "95 % interval", "other ends")
+    header: tuple[str, ...] = (
+        "scenes",
+        "plans",
+        "solved",
+        "95 % interval",
+        "other ends",
+    )
     header += ("least gap [mm]", "queries", "floored", "broken")
     dense = [row for row in found if row.get("dense_m") is not None]
     commits = ", ".join(dict.fromkeys(row["commit"] for row in found)) or "none"
