@@ -17,6 +17,7 @@ BASE = (
     "numpy",
     "scipy",
     "pin",
+    "toppra",
     "matplotlib",
     "qpsolvers",
     "osqp",

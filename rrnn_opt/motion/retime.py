@@ -1,14 +1,17 @@
-"""Timing of a path within velocity and acceleration limits.
+"""Timing of a path within velocity and acceleration limits: toppra, guarded.
 
-Waypoints that repeat are dropped, the path is resampled and smoothed, path and
-time are scaled to order one, rows stand at the breakpoints of the timing
-(:mod:`timing`), and what it returns is believed only after the exact extremes of
-the delivered cubics were compared with the limits (and time stretched where they
-exceed them).
+Guards against what the retimer is known to do: waypoints that repeat are
+dropped, the path is resampled before it is smoothed, path and time are scaled
+to order one, rows stand at the retimer's own breakpoints, and what it returns
+is believed only after the exact extremes of the delivered cubics were compared
+with the limits (and time stretched where they exceed them).
 """
 
 from __future__ import annotations
 
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -20,7 +23,6 @@ from rrnn_opt.motion.limits import position_excess, require_limits, slow_down
 from rrnn_opt.motion.path import Array, Path
 from rrnn_opt.motion.spline import SmoothPath
 from rrnn_opt.motion.stop_and_go import SHORTEST, stop_and_go
-from rrnn_opt.motion.timing import path_speeds
 from rrnn_opt.motion.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -67,8 +69,8 @@ def retime(
     Raises:
         NotFiniteError: a number is NaN or infinite.
         ShapeError: shapes do not fit.
-        RetimeError: the waypoints leave the position limits, or numbers
-            overflow (``reason`` says which).
+        RetimeError: the retimer failed (its ``reason`` says how), or the
+            waypoints leave the position limits.
     """
     chosen = RetimeSettings() if settings is None else settings
     path = Path(np.asarray(waypoints, dtype=np.float64)).without_duplicates()
@@ -88,10 +90,18 @@ def _timed(
     path: Path, limits: Limits, spacing: float, settings: RetimeSettings
 ) -> Trajectory:
     """Best of the grids tried: finer ones only where a stretch is called for."""
-    curve = SmoothPath(path, spacing=spacing, scale=path.length)
+    scale = path.length
+    curve = SmoothPath(path, spacing=spacing, scale=scale)
+    clock = float(np.sqrt(scale / np.min(limits.acceleration)))
+    velocity = limits.velocity * clock / scale
+    acceleration = limits.acceleration * clock**2 / scale
     best: Trajectory | None = None
     for k in range(settings.refinements + 1):
-        raw = _on_grid(curve, curve.grid(settings.rows * 2**k), path, limits)
+        grid = curve.grid(settings.rows * 2**k)
+        t, s, speed = _parametrised(curve, grid, velocity, acceleration)
+        q, qd = curve(s) * scale, curve(s, 1) * speed[:, None] * scale / clock
+        q[0], q[-1], qd[0], qd[-1] = path.start, path.goal, 0.0, 0.0
+        raw = Trajectory.from_rows(t * clock, q, qd)
         found = slow_down(raw, limits)
         if best is None or found.duration < best.duration:
             best = found
@@ -101,25 +111,53 @@ def _timed(
     return best
 
 
-def _on_grid(curve: SmoothPath, grid: Array, path: Path, limits: Limits) -> Trajectory:
-    """Rows at the grid's points, limits kept at the points.
+def _parametrised(
+    curve: SmoothPath, grid: Array, velocity: Array, acceleration: Array
+) -> tuple[Array, Array, Array]:
+    """Times, path positions and path speeds at the retimer's breakpoints.
 
-    Between points the path acceleration is constant, so a step takes
+    Between breakpoints the path acceleration is constant, so a step takes
     2 ds / (v_i + v_{i+1}).
 
     Raises:
-        RetimeError: numbers overflow on the way.
+        RetimeError: the retimer found nothing.
     """
-    scale = path.length
-    clock = float(np.sqrt(scale / np.min(limits.acceleration)))
-    velocity = limits.velocity * clock / scale
-    acceleration = limits.acceleration * clock**2 / scale
-    first = curve(grid, 1)
-    speed = path_speeds(grid, first, curve(grid, 2), velocity, acceleration)
+    with _silence():
+        from toppra import algorithm, constraint
+
+        bounds = [
+            constraint.JointVelocityConstraint(np.stack([-velocity, velocity], 1)),
+            constraint.JointAccelerationConstraint(
+                np.stack([-acceleration, acceleration], 1),
+                discretization_scheme=constraint.DiscretizationType.Interpolation,
+            ),
+        ]
+        try:
+            solver = algorithm.TOPPRA(
+                bounds, curve, gridpoints=grid, solver_wrapper="seidel"
+            )
+            solver.compute_parameterization(0.0, 0.0)
+        except (ValueError, ArithmeticError, AssertionError) as error:
+            raise RetimeError(f"toppra failed: {error}", str(error)) from error
+    data = solver.problem_data
+    speed = data.sd_vec
+    if data.return_code != algorithm.ParameterizationReturnCode.Ok or speed is None:
+        reason = str(data.return_code)
+        raise RetimeError(f"toppra found no timing: {reason}", reason)
     pace = speed[:-1] + speed[1:]
     if not np.all(np.isfinite(pace)) or np.any(pace <= 0):
-        raise RetimeError("the timing stops before the end of the path", "zero speed")
+        raise RetimeError("toppra stops before the end of the path", "zero speed")
     t = np.concatenate([[0.0], np.cumsum(2 * np.diff(grid) / pace)])
-    q, qd = curve(grid) * scale, first * speed[:, None] * scale / clock
-    q[0], q[-1], qd[0], qd[-1] = path.start, path.goal, 0.0, 0.0
-    return Trajectory.from_rows(t * clock, q, qd)
+    return t, grid, np.asarray(speed, dtype=np.float64)
+
+
+@contextmanager
+def _silence() -> Iterator[None]:
+    """Keep toppra's log lines off other people's consoles."""
+    logger = logging.getLogger("toppra")
+    before = logger.level
+    logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)

@@ -160,5 +160,5 @@ class PlanResult:
 
 def versions() -> dict[str, str]:
     """Versions of the package and of what a plan depends on."""
-    names = ("rrnn_opt", "casadi", "numpy")
+    names = ("rrnn_opt", "casadi", "numpy", "toppra")
     return {name: metadata.version(name) for name in names}

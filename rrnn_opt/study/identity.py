@@ -12,7 +12,7 @@ from typing import Any
 
 from rrnn_opt.study.study import Case, Study, plain
 
-PACKAGES = ("numpy", "scipy", "casadi", "qpsolvers", "osqp", "daqp", "pin")
+PACKAGES = ("numpy", "scipy", "casadi", "qpsolvers", "osqp", "daqp", "toppra", "pin")
 """Packages whose versions enter every identity."""
 
 SOURCES = (".py", ".c", ".h", ".json", ".toml")

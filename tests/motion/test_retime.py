@@ -1,5 +1,7 @@
 """Oracles: dense evaluation by scipy-checked cubics, and known optimal times."""
 
+import logging
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -104,10 +106,27 @@ def test_malformed_input_is_refused(limits_of):
         retime([[0.0], [1.0]], limits_of(1), spacing=0.0)
 
 
-def test_a_timing_that_no_double_holds_is_named(limits_of):
+def test_a_failing_retimer_is_named(limits_of, monkeypatch):
+    from toppra import algorithm
+
+    def fail(self, *_):
+        code = algorithm.ParameterizationReturnCode
+        self.problem_data.return_code = code.FailUncontrollable
+
+    monkeypatch.setattr(algorithm.TOPPRA, "compute_parameterization", fail)
     with pytest.raises(RetimeError) as caught:
-        retime([[0.0], [1.0]], limits_of(1, velocity=1e-320))
-    assert caught.value.reason == "zero speed"
+        retime([[0.0], [1.0]], limits_of(1))
+    assert "ncontrollable" in caught.value.reason
+
+
+def test_toppra_says_nothing_and_its_logger_is_left_as_it_was(limits_of, caplog):
+    logging.getLogger("toppra").setLevel(logging.INFO)
+    try:
+        retime(corners(2), limits_of(4))
+        assert logging.getLogger("toppra").level == logging.INFO
+    finally:
+        logging.getLogger("toppra").setLevel(logging.NOTSET)
+    assert not caplog.records
 
 
 def test_the_same_input_gives_the_same_rows(limits_of):
