@@ -14,8 +14,8 @@ import numpy as np
 from rrnn_opt.emit import build, load, prologue
 from rrnn_opt.emit.active_set import FIELDS, Factor, active_set_source
 from rrnn_opt.solving.backends import Told, solution
+from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
-from rrnn_opt.solving.residual import Array, Dense, Duals
 
 _ENTRY = """
 RRNN_EXPORT int solve(const rrnn_qp_t *qp, const real_t *J, rrnn_qp_answer_t *answer);

@@ -11,16 +11,9 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.solving.infeasible import find_farkas
+from rrnn_opt.solving.parts import Array, Dense, Duals, handed
 from rrnn_opt.solving.protocol import Instance, Solution
-from rrnn_opt.solving.residual import (
-    NOT_JUDGED,
-    Array,
-    Dense,
-    Duals,
-    handed,
-    judge,
-    relative_residual,
-)
+from rrnn_opt.solving.residual import NOT_JUDGED, judge, relative_residual
 from rrnn_opt.solving.status import Status
 
 TIGHT: Mapping[str, Mapping[str, Any]] = {

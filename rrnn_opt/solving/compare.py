@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rrnn_opt.solving.parts import Array, Dense
 from rrnn_opt.solving.protocol import Instance, Solution, Solver
-from rrnn_opt.solving.residual import Array, Dense, Residual
+from rrnn_opt.solving.residual import Residual
 from rrnn_opt.solving.status import Status
 from rrnn_opt.solving.stream import Stream
 

@@ -14,7 +14,8 @@ from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks import PrimalDual
 from rrnn_opt.solving.infeasible import find_farkas
-from rrnn_opt.solving.residual import Array, Dense, Duals, Residual, judge
+from rrnn_opt.solving.parts import Array, Dense, Duals
+from rrnn_opt.solving.residual import Residual, judge
 from rrnn_opt.solving.scaling import Scaled
 from rrnn_opt.solving.settle import settle_at
 from rrnn_opt.solving.status import Status

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.solving.residual import Array, Dense
+from rrnn_opt.solving.parts import Array, Dense
 
 ROUNDING = 1e-12
 """A coefficient below this, relative to the largest entry, counts as zero."""

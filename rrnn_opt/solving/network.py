@@ -14,7 +14,7 @@ import numpy as np
 from rrnn_opt import emit
 from rrnn_opt.dynamics import DiscreteDynamics, Dynamics, Euler
 from rrnn_opt.errors import CompilerError
-from rrnn_opt.solving.residual import Array
+from rrnn_opt.solving.parts import Array
 from rrnn_opt.symbolic.symbol import Symbol
 
 ESCAPE = 1e12

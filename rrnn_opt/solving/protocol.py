@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from rrnn_opt.solving.residual import NOT_JUDGED, Array, Duals, Residual
+from rrnn_opt.solving.parts import Array, Duals
+from rrnn_opt.solving.residual import NOT_JUDGED, Residual
 from rrnn_opt.solving.status import Status
 
 

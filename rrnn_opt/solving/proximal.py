@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.solving.backends import TIGHT, Told, solution
+from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
-from rrnn_opt.solving.residual import Array, Dense, Duals
 
 
 @dataclass

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.solving.dense import Answer, settle_dense
-from rrnn_opt.solving.residual import Dense
+from rrnn_opt.solving.parts import Dense
 
 NAME = "rrnn"
 

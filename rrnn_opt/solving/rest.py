@@ -9,7 +9,8 @@ import numpy as np
 
 from rrnn_opt.solving.infeasible import find_farkas
 from rrnn_opt.solving.network import ESCAPE, RestableNetwork
-from rrnn_opt.solving.residual import NOT_JUDGED, Array, Dense, Duals, Residual, judge
+from rrnn_opt.solving.parts import Array, Dense, Duals
+from rrnn_opt.solving.residual import NOT_JUDGED, Residual, judge
 from rrnn_opt.solving.status import Status
 
 _REFINEMENTS = 4

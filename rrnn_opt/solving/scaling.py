@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rrnn_opt.errors import NotAQpError, NotFiniteError
-from rrnn_opt.solving.residual import Array, Dense, Duals
+from rrnn_opt.solving.parts import Array, Dense, Duals
 
 RANK = 1e-10
 """A singular value below this, relative to the largest, makes a dependent row."""

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.solving.backends import TIGHT, Told, solution
+from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
-from rrnn_opt.solving.residual import Array, Dense, Duals
 
 _EQUALITY = 5
 """DAQP's word for a row that is always active and cannot be dropped."""

@@ -16,7 +16,8 @@ from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks import LviPdnn
 from rrnn_opt.networks.step_size import settling_step
 from rrnn_opt.solving.network import RestableNetwork, restable
-from rrnn_opt.solving.residual import NOT_JUDGED, Array, Dense, Residual
+from rrnn_opt.solving.parts import Array, Dense
+from rrnn_opt.solving.residual import NOT_JUDGED, Residual
 from rrnn_opt.solving.rest import Attempt, Job
 from rrnn_opt.solving.status import Status
 from rrnn_opt.symbolic.values import arguments

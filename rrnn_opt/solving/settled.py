@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 from rrnn_opt.dynamics import Dynamics
 from rrnn_opt.solving.network import restable
+from rrnn_opt.solving.parts import Array, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
-from rrnn_opt.solving.residual import Array, Duals
 from rrnn_opt.solving.settle import SettleInfo, settle_at
 
 

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.robot import Kinematics
+from rrnn_opt.solving.parts import Array
 from rrnn_opt.solving.protocol import Instance
-from rrnn_opt.solving.residual import Array
 
 
 class Motion(Protocol):

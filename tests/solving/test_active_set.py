@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.solving import ActiveSet, DaqpSession, Instance, Status
 from rrnn_opt.solving.active_set import INFEASIBLE, SOLVED, solve_dense
-from rrnn_opt.solving.residual import Dense, kkt_residual
+from rrnn_opt.solving.parts import Dense
+from rrnn_opt.solving.residual import kkt_residual
 from tests.catalogue import form, kinematics, schemes
 from tests.formulations.points import parameters
 

@@ -5,8 +5,8 @@ import pytest
 import qpsolvers
 
 from rrnn_opt.solving.backends import TIGHT, Qpsolvers
+from rrnn_opt.solving.parts import OSQP_JUNK
 from rrnn_opt.solving.protocol import Instance
-from rrnn_opt.solving.residual import OSQP_JUNK
 from rrnn_opt.solving.sessions import DaqpSession, OsqpSession
 from rrnn_opt.solving.status import Status
 

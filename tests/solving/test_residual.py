@@ -6,14 +6,8 @@ import qpsolvers
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rrnn_opt.solving.residual import (
-    NOT_JUDGED,
-    OSQP_JUNK,
-    Dense,
-    Duals,
-    judge,
-    kkt_residual,
-)
+from rrnn_opt.solving.parts import OSQP_JUNK, Dense, Duals
+from rrnn_opt.solving.residual import NOT_JUDGED, judge, kkt_residual
 from rrnn_opt.solving.status import Status
 
 

@@ -2,7 +2,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from rrnn_opt.emit.c99 import C_TEXT
+from rrnn_opt.emit.operations import C_TEXT
 from rrnn_opt.errors import RrnnError, UnsupportedOperationError
 from rrnn_opt.symbolic.interpreter import NUMPY
 from rrnn_opt.symbolic.tape import OPERATIONS, Tape, fingerprint

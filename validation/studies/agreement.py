@@ -17,7 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.solving.residual import Array, Dense, Duals, kkt_residual
+from rrnn_opt.solving.parts import Array, Dense, Duals
+from rrnn_opt.solving.residual import kkt_residual
 
 Mask = NDArray[np.bool_]
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from rrnn_opt.dynamics import Dynamics
 from rrnn_opt.solving import Duals, Instance, Qpsolvers
-from rrnn_opt.solving.residual import Dense
+from rrnn_opt.solving.parts import Dense
 from rrnn_opt.solving.settle import settle_at
 from rrnn_opt.validation.studies.agreement import (
     TOLERANCE,

@@ -21,7 +21,7 @@ from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations import minimum_velocity
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.solving import TIGHT, Instance, Qpsolvers
-from rrnn_opt.solving.residual import Dense, handed
+from rrnn_opt.solving.parts import Dense, handed
 from rrnn_opt.solving.settle import settle_at
 from rrnn_opt.study import Case
 from rrnn_opt.validation.studies.catalogue import networks_of

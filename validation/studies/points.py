@@ -19,7 +19,7 @@ from rrnn_opt.errors import InfeasibleQpError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.solving import TIGHT
-from rrnn_opt.solving.residual import Dense
+from rrnn_opt.solving.parts import Dense
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.validation.studies.postures import Array, Postures
 

@@ -102,13 +102,7 @@ class CheckedCertificate:
     @property
     def certificate(self) -> dict[str, Any]:
         """The document with this answer written into it."""
-        answer = {
-            "status": self.status,
-            "trust": self.trust,
-            "assumptions": list(self.assumptions),
-            "versions": versions(),
-        }
-        whole = self.document | answer
+        whole = self.document | self._answer | {"versions": versions()}
         return whole | {"digest": digest(whole)}
 
     @property
@@ -119,15 +113,16 @@ class CheckedCertificate:
     @property
     def holds(self) -> bool:
         """Whether the claim is settled, and as the document says (if it does)."""
-        found = {
-            "status": self.status,
-            "trust": self.trust,
-            "assumptions": list(self.assumptions),
-        }
         said = self.document
         return self.status != UNKNOWN and all(
-            said.get(name, value) == value for name, value in found.items()
+            said.get(name, value) == value for name, value in self._answer.items()
         )
+
+    @property
+    def _answer(self) -> dict[str, Any]:
+        """What a document may say of itself."""
+        assumptions = list(self.assumptions)
+        return {"status": self.status, "trust": self.trust, "assumptions": assumptions}
 
     @property
     def witness(self) -> dict[str, list[str]] | None:

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.check.plans import reading
-from rrnn_opt.check.plans.collision.proof import Motion
 from rrnn_opt.check.plans.collision.scene import Scene, build_scene
+from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.reading import Array, get
 from rrnn_opt.check.plans.robot.model import Model
 from rrnn_opt.check.plans.solids.distance import read_obstacle

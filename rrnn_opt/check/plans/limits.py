@@ -13,7 +13,8 @@ import numpy as np
 
 from rrnn_opt.check.arithmetic import cubic
 from rrnn_opt.check.plans import hermite
-from rrnn_opt.check.plans.collision.proof import PROVED, REFUTED, Motion
+from rrnn_opt.check.plans.collision.proof import PROVED, REFUTED
+from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.reading import Array
 from rrnn_opt.check.plans.robot.model import Model
 

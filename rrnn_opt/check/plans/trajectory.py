@@ -17,7 +17,6 @@ from rrnn_opt.check.plans.collision.proof import (
     PROVED,
     UNKNOWN,
     Effort,
-    Motion,
     Outcome,
     prove_free,
 )
@@ -25,6 +24,7 @@ from rrnn_opt.check.plans.collision.scene import Scene
 from rrnn_opt.check.plans.goal import GoalError, nearest_goal
 from rrnn_opt.check.plans.inputs import read_motion, read_scene
 from rrnn_opt.check.plans.limits import prove_limits
+from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.reading import Array
 from rrnn_opt.check.plans.robot.model import Model, read_model
 from rrnn_opt.errors import DocumentError

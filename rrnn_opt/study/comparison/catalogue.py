@@ -6,15 +6,9 @@ from collections.abc import Iterable
 from functools import lru_cache, partial
 
 from rrnn_opt.errors import RrnnError
+from rrnn_opt.study.comparison.arms import ARMS, arm, velocity_scheme
 from rrnn_opt.study.comparison.drawn import DRAWS, drawn_set
-from rrnn_opt.study.comparison.motions import (
-    ARMS,
-    COUNT,
-    MOTIONS,
-    arm,
-    motion_set,
-    velocity_scheme,
-)
+from rrnn_opt.study.comparison.motions import COUNT, MOTIONS, motion_set
 from rrnn_opt.study.comparison.problem_set import SOLVABLE, ProblemSet
 
 WINDOW = "window/pa10"

@@ -13,7 +13,7 @@ from collections.abc import Callable
 import numpy as np
 
 from rrnn_opt.solving import Instance
-from rrnn_opt.solving.residual import Array
+from rrnn_opt.solving.parts import Array
 from rrnn_opt.study.comparison.problem_set import (
     INFEASIBLE,
     SOLVABLE,

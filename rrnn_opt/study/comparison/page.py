@@ -11,19 +11,21 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.report import write_bytes, write_text
-from rrnn_opt.report.markdown import markdown_table
 from rrnn_opt.report.profiles import draw_profiles
 from rrnn_opt.report.simple_page import html_page
-from rrnn_opt.solving import TIGHT
-from rrnn_opt.solving.conic import PLUGINS
 from rrnn_opt.study.comparison.advice import advice
 from rrnn_opt.study.comparison.measure import Comparison
+from rrnn_opt.study.comparison.page_tables import (
+    answers_table,
+    gains_table,
+    infeasible_table,
+    solvers_table,
+    unfinished,
+)
 from rrnn_opt.study.comparison.profiles import TimeTable, time_table
 from rrnn_opt.study.comparison.statistics import SHIFT_US
 from rrnn_opt.study.comparison.summary import TOLERANCE, summaries
 from rrnn_opt.study.study import Row
-
-Found = Sequence[Mapping[str, Any]]
 
 _ABOUT = f"""\
 Every answer is judged here, by its absolute KKT residuals (primal, dual, gap,
@@ -37,12 +39,6 @@ the geometric mean of the median times, shifted by {SHIFT_US:g} us. *spread* is 
 interquartile range over the passes relative to the median. The first call stands
 apart. Garbage collection is off between calls; every process has one thread. Profiles
 and ranks hold under these tolerances and on this machine only."""
-
-_HEAD = (
-    *("solver", "mode", "n", "solved", "95 % interval", "relative", "wrong claims"),
-    *("p50", "p95", "p99", "p99.9", "worst", "mean", "inner", "spread", "first"),
-    *("iterations", "primal", "dual", "gap"),
-)
 
 
 def write_report(
@@ -104,12 +100,12 @@ def page(
     for name in study.sets:
         mine = [row for row in found if row["stream"] == name]
         problems = study.problems(name)
-        parts += [f"## {name}", f"{problems.about}.", _table(mine)]
-        parts += _lost(mine)
-    parts += ["## Gain of a warm start", _gains(found)]
+        parts += [f"## {name}", f"{problems.about}.", answers_table(mine)]
+        parts += unfinished(mine)
+    parts += ["## Gain of a warm start", gains_table(found)]
     if any(row.get("infeasible") for row in found):
-        parts += ["## Problems without a solution", _infeasible(found)]
-    parts += ["## Who was asked", _solvers(study)]
+        parts += ["## Problems without a solution", infeasible_table(found)]
+    parts += ["## Who was asked", solvers_table(study)]
     return "\n\n".join(parts) + "\n"
 
 
@@ -125,103 +121,6 @@ def _made(environment: Mapping[str, Any], command: str, digest: str) -> str:
             f"rows {digest}",
         ]
     )
-
-
-def _table(rows: Found) -> str:
-    lines = []
-    for row in rows:
-        times = row["time_us"]
-        if times is None:
-            continue
-        low, high = row["wilson"]
-        lines.append(
-            (
-                *(row["solver"], row["mode"], row["n"], row["solved"]),
-                f"{low:.1%} to {high:.1%}",
-                *(row["solved_relative"], row["claims_wrongly"]),
-                *(_short(times[k]) for k in ("p50", "p95", "p99", "p999", "max")),
-                *(_short(row["mean_us"]), _short(row["inner_us"])),
-                f"{row['spread']:.0%}",
-                *(_short(row["first_us"]), _short(row["iterations"])),
-                *(_small(row[k]) for k in ("primal", "dual", "gap")),
-            )
-        )
-    if not lines:
-        return "Nothing here has a solution; see the table of infeasible problems."
-    order = sorted(lines, key=lambda line: (-line[3], float(line[7])))
-    return markdown_table(_HEAD, order)
-
-
-def _lost(rows: Found) -> list[str]:
-    lost = [r for r in rows if r.get("error")]
-    return [
-        "Did not finish: "
-        + "; ".join(f"{r['solver']}, {r['mode']} ({r['error']})" for r in lost)
-        + "."
-    ] * bool(lost)
-
-
-def _gains(rows: Found) -> str:
-    """Cold over warm and over stream, of the shifted geometric means."""
-    means = {
-        (r["stream"], r["solver"], r["mode"]): r["mean_us"]
-        for r in rows
-        if r.get("mean_us")
-    }
-    gains: dict[str, dict[str, list[float]]] = {}
-    for (stream, solver, mode), mean in means.items():
-        cold = means.get((stream, solver, "cold"))
-        if mode != "cold" and cold is not None:
-            gains.setdefault(solver, {}).setdefault(mode, []).append(cold / mean)
-    lines = [
-        (solver, *(_gain(found.get(mode)) for mode in ("warm", "stream")))
-        for solver, found in sorted(gains.items())
-    ]
-    if not lines:
-        return "No sequence was run in two modes."
-    text = "Geometric mean over the sequences of cold / warm and cold / stream."
-    return f"{text}\n\n{markdown_table(('solver', 'warm', 'stream'), lines)}"
-
-
-def _gain(ratios: list[float] | None) -> str | None:
-    return None if not ratios else f"{np.exp(np.mean(np.log(ratios))):.2f}"
-
-
-def _infeasible(rows: Found) -> str:
-    lines = []
-    for row in rows:
-        told = row.get("infeasible")
-        if told is None:
-            continue
-        handed = ", ".join(f"{k} {v}" for k, v in told["handed"].items())
-        times = told["time_us"]
-        lines.append(
-            (
-                *(row["stream"], row["solver"], row["mode"], told["n"]),
-                told["claims"],
-                handed,
-                *(_short(times[k]) for k in ("p50", "max")),
-            )
-        )
-    head = ("set", "solver", "mode", "n", "called solved", "handed out", "p50", "worst")
-    return (
-        "Infeasible by a Farkas certificate that is checked here. *handed out*: what "
-        "stood in x.\n\n" + markdown_table(head, lines)
-    )
-
-
-def _solvers(study: Comparison) -> str:
-    lines = []
-    for who in study.solvers:
-        plugin = who.name.removeprefix("casadi-")
-        given = (
-            PLUGINS.get(plugin, {}) if plugin != who.name else TIGHT.get(who.name, {})
-        )
-        settings = ", ".join(f"{k} {v}" for k, v in given.items()) or "its own"
-        version = f"{who.package} {who.version()}"
-        lines.append((who.name, who.method, who.licence, version, settings))
-    head = ("solver", "method", "licence", "package", "settings")
-    return markdown_table(head, lines)
 
 
 def _plain(table: TimeTable) -> dict[str, Any]:
@@ -247,13 +146,3 @@ def _pooled(rows: Sequence[Row]) -> list[dict[str, Any]]:
         for label, times in pooled.items()
         if times
     ]
-
-
-def _short(value: float | None) -> str | None:
-    if value is None:
-        return None
-    return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
-
-
-def _small(value: float | None) -> str | None:
-    return None if value is None else f"{value:.0e}"

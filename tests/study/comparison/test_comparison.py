@@ -9,8 +9,9 @@ import pytest
 from rrnn_opt.solving import ActiveSet, Duals, Instance, Qpsolvers, Solution, Status
 from rrnn_opt.solving.backends import Told, solution
 from rrnn_opt.solving.conic import PLUGINS, CasadiConic
+from rrnn_opt.solving.parts import Dense, handed
 from rrnn_opt.solving.proximal import PiqpSession, ProxqpSession
-from rrnn_opt.solving.residual import Dense, handed, relative_residual
+from rrnn_opt.solving.residual import relative_residual
 from rrnn_opt.study import Results, environment, wilson
 from rrnn_opt.study.comparison import Comparison, chosen, summaries, write_report
 from rrnn_opt.study.comparison.advice import advice
@@ -221,13 +222,13 @@ def test_a_study_is_kept_summed_up_and_reported(tmp_path, stream):
 
 def test_a_gain_is_that_of_the_stream():
     """Times of one's own making: the stream is ten times as fast."""
-    from rrnn_opt.study.comparison.page import _gains
+    from rrnn_opt.study.comparison.page_tables import gains_table
 
     rows = [
         {"stream": "s", "solver": "a", "mode": "cold", "mean_us": 50.0},
         {"stream": "s", "solver": "a", "mode": "stream", "mean_us": 5.0},
     ]
-    assert "| a | - | 10.00 |" in _gains(rows)
+    assert "| a | - | 10.00 |" in gains_table(rows)
 
 
 def test_an_instance_of_another_shape_is_set_up_anew():

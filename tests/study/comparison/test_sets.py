@@ -5,7 +5,7 @@ import pytest
 
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.solving import DaqpSession, find_farkas
-from rrnn_opt.solving.residual import Dense
+from rrnn_opt.solving.parts import Dense
 from rrnn_opt.study.comparison import GROUPS, named_set, own_sets, set_names
 from rrnn_opt.study.comparison.catalogue import installed, problem_set
 from rrnn_opt.study.comparison.drawn import DRAWS, drawn_set

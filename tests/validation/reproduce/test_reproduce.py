@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from rrnn_opt.study import Results, Row, environment, parts, store
-from rrnn_opt.validation.reproduce.cells import CEILING, NO_ROWS
+from rrnn_opt.validation.reproduce.cell import NO_ROWS
+from rrnn_opt.validation.reproduce.cells import CEILING
 from rrnn_opt.validation.reproduce.report import page, write_report
 from rrnn_opt.validation.reproduce.run import (
     PARTS,

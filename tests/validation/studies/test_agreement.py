@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from rrnn_opt.solving import Duals
-from rrnn_opt.solving.residual import Dense
+from rrnn_opt.solving.parts import Dense
 from rrnn_opt.validation.studies.agreement import (
     answer_of,
     conditioning,

@@ -4,7 +4,7 @@ import pytest
 import qpsolvers
 
 import rrnn_opt as rr
-from rrnn_opt.solving.residual import Dense
+from rrnn_opt.solving.parts import Dense
 from rrnn_opt.validation.studies.catalogue import (
     contact_spheres,
     network_rules,

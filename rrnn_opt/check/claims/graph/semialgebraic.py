@@ -33,7 +33,8 @@ from dataclasses import dataclass, replace
 from flint import fmpq
 
 from rrnn_opt.check.claims.document import Bound, ClaimGraph
-from rrnn_opt.check.claims.graph.polynomial import NormalForms, Polynomial, normal_forms
+from rrnn_opt.check.claims.graph.expansion import Polynomial
+from rrnn_opt.check.claims.graph.polynomial import NormalForms, normal_forms
 
 MAX_ANGLES = 12
 """Of more angles than these, no sums are looked for."""

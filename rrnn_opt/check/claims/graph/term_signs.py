@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from rrnn_opt.check.claims.document import Bound, Element
-from rrnn_opt.check.claims.graph.polynomial import NormalForms, Polynomial
+from rrnn_opt.check.claims.graph.expansion import Polynomial
+from rrnn_opt.check.claims.graph.polynomial import NormalForms
 
 Domain = Mapping[Element, tuple[Bound, Bound]]
 

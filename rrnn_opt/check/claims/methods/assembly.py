@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 from rrnn_opt.check.claims.document import ClaimGraph, Element, Port, Step
-from rrnn_opt.check.claims.graph.polynomial import may_be_undefined
+from rrnn_opt.check.claims.graph.expansion import may_be_undefined
 from rrnn_opt.errors import UndecidedError
 
 MAX_STEPS = 200_000

@@ -12,7 +12,8 @@ from typing import Any
 from flint import fmpq
 
 from rrnn_opt.check.claims.document import WHERE, ClaimGraph, Element, read_claim
-from rrnn_opt.check.claims.graph.polynomial import NormalForms, Polynomial, normal_forms
+from rrnn_opt.check.claims.graph.expansion import Polynomial
+from rrnn_opt.check.claims.graph.polynomial import NormalForms, normal_forms
 from rrnn_opt.check.claims.graph.term_signs import never_negative
 from rrnn_opt.check.claims.methods.assembly import Assembly
 from rrnn_opt.errors import DocumentError, UndecidedError

@@ -30,7 +30,7 @@ from flint import fmpq
 from rrnn_opt.check.arithmetic.definite import positive
 from rrnn_opt.check.claims.answer import Answer, undefined
 from rrnn_opt.check.claims.document import WHERE, ClaimGraph, read_rational
-from rrnn_opt.check.claims.graph.polynomial import Polynomial, remainder
+from rrnn_opt.check.claims.graph.expansion import Polynomial, remainder
 from rrnn_opt.check.claims.graph.semialgebraic import Semialgebraic, semialgebraic
 from rrnn_opt.errors import DocumentError, UndecidedError
 

@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.check.plans import hermite
 from rrnn_opt.check.plans.collision.boxes import Poses, joint_pieces, poses
 from rrnn_opt.check.plans.collision.rounding import Rounding
 from rrnn_opt.check.plans.collision.targets import Target
@@ -26,8 +25,7 @@ from rrnn_opt.check.plans.collision.worklist import (
     divide,
     whole,
 )
-from rrnn_opt.check.plans.hermite import Pieces
-from rrnn_opt.check.plans.reading import Array
+from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.robot.model import Model
 
 PROVED, REFUTED, UNKNOWN = "PROVED", "REFUTED", "UNKNOWN"
@@ -75,31 +73,6 @@ class Outcome:
     checks: int
     boxes: int
     leaves: list[Leaf] | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Motion:
-    """A timed motion in the checker's own terms.
-
-    Attributes:
-        t: (n,), s.
-        q: (n, nv).
-        qd: (n, nv).
-        pieces: cubics of the coordinates over time.
-        unit: the same over each piece's time from 0 to 1.
-    """
-
-    t: Array
-    q: Array
-    qd: Array
-    pieces: Pieces
-    unit: Pieces
-
-    @staticmethod
-    def of(t: Array, q: Array, qd: Array) -> Motion:
-        """The motion of these rows."""
-        unit = hermite.unit_pieces(t, q, qd)
-        return Motion(t, q, qd, hermite.pieces(t, q, qd), unit)
 
 
 def prove_free(

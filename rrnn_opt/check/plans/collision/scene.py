@@ -12,7 +12,6 @@ from rrnn_opt.check.plans import hermite
 from rrnn_opt.check.plans.collision.bodies import Bodies, Index, with_balls
 from rrnn_opt.check.plans.collision.boxes import joint_pieces
 from rrnn_opt.check.plans.collision.movers import Movers
-from rrnn_opt.check.plans.collision.proof import Motion
 from rrnn_opt.check.plans.collision.rounding import (
     Rounding,
     rounding,
@@ -24,6 +23,7 @@ from rrnn_opt.check.plans.collision.targets import (
     SelfTarget,
     Target,
 )
+from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.reading import Array
 from rrnn_opt.check.plans.robot.model import Model
 from rrnn_opt.check.plans.robot.motion_bound import reach_table

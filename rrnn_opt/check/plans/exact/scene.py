@@ -11,7 +11,6 @@ import flint
 import numpy as np
 
 from rrnn_opt.check.arithmetic import cubic
-from rrnn_opt.check.plans.collision.proof import Motion
 from rrnn_opt.check.plans.collision.scene import Scene
 from rrnn_opt.check.plans.collision.targets import ObstacleTarget, SelfTarget, Target
 from rrnn_opt.check.plans.exact.cover import spheres
@@ -26,6 +25,7 @@ from rrnn_opt.check.plans.exact.robot import (
     exact,
     length,
 )
+from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.solids.distance import normals
 
 

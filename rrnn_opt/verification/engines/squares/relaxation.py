@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from rrnn_opt.check.claims.graph.polynomial import Polynomial, remainder
+from rrnn_opt.check.claims.graph.expansion import Polynomial, remainder
 from rrnn_opt.check.claims.graph.semialgebraic import Semialgebraic
 from rrnn_opt.errors import UndecidedError
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.check.claims.document import read_claim
-from rrnn_opt.check.claims.graph.polynomial import Polynomial
+from rrnn_opt.check.claims.graph.expansion import Polynomial
 from rrnn_opt.check.claims.graph.semialgebraic import Semialgebraic, semialgebraic
 from rrnn_opt.claim import Claim
 from rrnn_opt.errors import UndecidedError

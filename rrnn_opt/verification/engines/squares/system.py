@@ -12,7 +12,7 @@ from flint import fmpq, fmpq_mat
 from numpy.typing import NDArray
 from scipy.linalg import qr
 
-from rrnn_opt.check.claims.graph.polynomial import Polynomial
+from rrnn_opt.check.claims.graph.expansion import Polynomial
 from rrnn_opt.errors import UndecidedError
 from rrnn_opt.verification.engines.conic import ConicProgram
 from rrnn_opt.verification.engines.squares.relaxation import Relaxation, sparse, written

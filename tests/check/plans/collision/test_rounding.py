@@ -7,9 +7,9 @@ import pytest
 from rrnn_opt.check.arithmetic.doubles import U
 from rrnn_opt.check.plans import inputs
 from rrnn_opt.check.plans.collision.boxes import Boxes, joint_pieces, poses
-from rrnn_opt.check.plans.collision.proof import Motion
 from rrnn_opt.check.plans.exact.robot import PRECISION, length, nearest_rotation
 from rrnn_opt.check.plans.exact.scene import BallScene
+from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.reading import polished
 from rrnn_opt.check.plans.robot.model import read_model
 

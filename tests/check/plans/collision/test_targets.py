@@ -6,7 +6,7 @@ import pytest
 from rrnn_opt.check.plans import inputs
 from rrnn_opt.check.plans.collision.bodies import CELL
 from rrnn_opt.check.plans.collision.boxes import Boxes, joint_pieces, poses
-from rrnn_opt.check.plans.collision.proof import Motion
+from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.robot import kinematics
 from rrnn_opt.check.plans.robot.model import read_model
 
