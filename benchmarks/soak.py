@@ -183,8 +183,25 @@ def report(found: list[dict[str, Any]]) -> str:
         "sampled at 1e-3 rad as well"
         + (f" (least gap {1e3 * _least(dense, 'dense_m'):.3g} mm)." if dense else "."),
         f"CPU time of a plan, p50 / p95: {_times(spent)} ms.",
+        *_drift(found),
     ]
     return "\n".join(["# Soak", "", *words, "", _markdown(header, body)])
+
+
+def _drift(found: list[dict[str, Any]]) -> list[str]:
+    """Memory and time of each process, its first quarter beside its last."""
+    told = ["", "Drift, first quarter of a process's plans to its last:", ""]
+    for job in sorted({row["job"] for row in found if "job" in row}):
+        mine = [row for row in found if row.get("job") == job]
+        part = max(1, len(mine) // 4)
+        ends = (mine[:part], mine[-part:])
+        memory = [np.median([row["memory_mb"] for row in rows]) for rows in ends]
+        cpu = [np.median([1e3 * row["all_s"] for row in rows]) for rows in ends]
+        told.append(
+            f"- process {job}, {len(mine)} plans: {memory[0]:.0f} to {memory[1]:.0f} MB,"
+            f" CPU p50 {cpu[0]:.1f} to {cpu[1]:.1f} ms."
+        )
+    return told if len(told) > 3 else []
 
 
 def _line(name: str, mine: list[dict[str, Any]]) -> tuple[str, ...]:

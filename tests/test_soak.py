@@ -65,7 +65,9 @@ def test_a_stopped_run_goes_on(tmp_path, monkeypatch):
     again = [json.loads(line) for line in first.splitlines()]
     assert soak.rows(tmp_path)[:2] == again
     assert [row["n"] for row in soak.rows(tmp_path)] == [0, 1, 2]
-    assert "| all | 3 | 3 |" in (tmp_path / "soak.md").read_text("utf-8")
+    table = (tmp_path / "soak.md").read_text("utf-8")
+    assert "| all | 3 | 3 |" in table
+    assert "- process 0, 3 plans: " in table
 
 
 def test_every_hundredth_motion_is_sampled_too(monkeypatch):
