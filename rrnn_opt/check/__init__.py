@@ -7,6 +7,16 @@ PROVED, REFUTED (with a witness) or UNKNOWN; samples are never a certificate.
 """
 
 from rrnn_opt.check.plans.document import PlanCheck, check_plan
-from rrnn_opt.check.plans.trajectory import TrajectoryCertificate, certify_trajectory
+from rrnn_opt.check.plans.trajectory import (
+    Judge,
+    TrajectoryCertificate,
+    certify_trajectory,
+)
 
-__all__ = ["PlanCheck", "TrajectoryCertificate", "certify_trajectory", "check_plan"]
+__all__ = [
+    "Judge",
+    "PlanCheck",
+    "TrajectoryCertificate",
+    "certify_trajectory",
+    "check_plan",
+]

@@ -101,8 +101,12 @@ class Trajectory:
 
     def to_dict(self) -> dict[str, Any]:
         """The "trajectory" object of a plan."""
-        rows = {k: getattr(self, k).tolist() for k in ("t", "q", "qd", "qdd")}
+        rows = {name: rows.tolist() for name, rows in self.columns().items()}
         return {**rows, "duration": self.duration}
+
+    def columns(self) -> dict[str, Array]:
+        """Its arrays t, q, qd and qdd by name: what a checker reads."""
+        return {name: getattr(self, name) for name in ("t", "q", "qd", "qdd")}
 
     @staticmethod
     def from_dict(data: Mapping[str, Any]) -> Trajectory:

@@ -19,6 +19,7 @@ from rrnn_opt.planning.result import PlanResult
 from rrnn_opt.planning.rollout_library import point_goals, thinned
 from rrnn_opt.planning.rollout_settings import SingleRollout
 from rrnn_opt.planning.run import Run
+from rrnn_opt.planning.runtime_cache import judge_of
 from rrnn_opt.planning.runtime_library import Runtime, Search
 from rrnn_opt.planning.searches import open_search, runtime_for
 from rrnn_opt.planning.settings import PLANNERS, PlannerSettings, RandomRnn
@@ -195,13 +196,14 @@ def _delivered(
 
 def _timed(run: Run, path: Array) -> Delivery[check.TrajectoryCertificate]:
     """Retime and certify; the certificate's own time is left out."""
-    problem, robot = run.problem.to_dict(), run.problem.robot.to_dict()
+    problem, judge = run.problem.to_dict(), judge_of(run.problem.robot)
     begin, checking = time.perf_counter(), 0.0
 
     def certify(trajectory: Trajectory) -> check.TrajectoryCertificate:
         nonlocal checking
         start = time.perf_counter()
-        verdict = check.certify_trajectory(robot, problem, trajectory.to_dict())
+        rows = {**trajectory.columns(), "duration": trajectory.duration}
+        verdict = judge.certify(problem, rows)
         checking += time.perf_counter() - start
         return verdict
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes as ct
-import json
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
@@ -18,6 +17,7 @@ from rrnn_opt.planning.feasibility import OpenGoals
 from rrnn_opt.planning.rollout_kernel import rollout_source
 from rrnn_opt.planning.rollout_settings import PaperRnn, RolloutSettings
 from rrnn_opt.planning.rollout_structs import RolloutStruct, rollout_struct
+from rrnn_opt.planning.runtime_cache import robot_text
 from rrnn_opt.planning.runtime_library import (
     FLAGS,
     STATUS,
@@ -65,7 +65,7 @@ def rollout_runtime_of(robot: Robot, settings: RolloutSettings) -> RolloutRuntim
         CompilerError: there is no C compiler, or it failed.
     """
     constants = (settings.cell, settings.c1, settings.c2)
-    return _runtime(_Key(json.dumps(robot.to_dict()), constants, robot))
+    return _runtime(_Key(robot_text(robot), constants, robot))
 
 
 class RolloutSearch(Search):

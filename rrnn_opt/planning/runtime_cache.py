@@ -1,4 +1,4 @@
-"""Compiled planners of the robots that this process has met."""
+"""Compiled planners, and judges, of the robots that this process has met."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import json
 from dataclasses import dataclass
 from functools import lru_cache
 
+from rrnn_opt.check import Judge
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.runtime_library import Runtime
 from rrnn_opt.robot import Robot
@@ -43,4 +44,20 @@ def runtime_of(robot: Robot, cell: MemoryCell) -> Runtime:
     Raises:
         CompilerError: there is no C compiler, or it failed.
     """
-    return _runtime(_Key(json.dumps(robot.to_dict()), cell, robot))
+    return _runtime(_Key(robot_text(robot), cell, robot))
+
+
+@lru_cache(maxsize=64)
+def robot_text(robot: Robot) -> str:
+    """The robot block as JSON; robots do not change, so it is written once."""
+    return json.dumps(robot.to_dict())
+
+
+@lru_cache(maxsize=16)
+def _judge(text: str) -> Judge:
+    return Judge.of(json.loads(text))
+
+
+def judge_of(robot: Robot) -> Judge:
+    """The independent judge of a robot's trajectories, its own copy of the block."""
+    return _judge(robot_text(robot))

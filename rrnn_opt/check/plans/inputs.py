@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.check.plans import reading
+from rrnn_opt.check.plans.collision.parts import Parts
 from rrnn_opt.check.plans.collision.scene import Scene, build_scene
 from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.reading import Array, get
@@ -36,13 +37,13 @@ def read_motion(trajectory: Any, nv: int) -> tuple[Motion, Array | None]:
     return Motion.of(t, q, qd), qdd
 
 
-def read_scene(model: Model, problem: Any, motion: Motion) -> Scene:
+def read_scene(parts: Parts, problem: Any, motion: Motion) -> Scene:
     """All that must keep apart.
 
     Raises:
         DocumentError: an obstacle is malformed or cannot be judged.
     """
-    _require_attached(model, problem.get("attached"))
+    _require_attached(parts.bodies.model, problem.get("attached"))
     given = problem.get("obstacles")
     entries = reading.listing([] if given is None else given, "problem.obstacles")
     obstacles = [
@@ -51,7 +52,7 @@ def read_scene(model: Model, problem: Any, motion: Motion) -> Scene:
     margin = reading.number(problem.get("margin", 0.0), "problem.margin")
     if margin < 0:
         raise DocumentError("problem.margin", "must not be negative")
-    return build_scene(model, obstacles, margin, motion)
+    return build_scene(parts, obstacles, margin, motion)
 
 
 def _require_attached(model: Model, attached: Any) -> None:

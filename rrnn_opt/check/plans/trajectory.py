@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.check.plans import hermite, reading
+from rrnn_opt.check.plans.collision.parts import Parts
 from rrnn_opt.check.plans.collision.proof import (
     PROVED,
     UNKNOWN,
@@ -88,6 +89,55 @@ class TrajectoryCertificate:
         return {**result, "faults": list(self.faults)}
 
 
+@dataclass(frozen=True, eq=False)
+class Judge:
+    """A robot, read once, whose trajectories are judged.
+
+    Attributes:
+        document: the robot block; nobody may change it from now on.
+        model: what it says.
+        parts: what of it must keep apart.
+    """
+
+    document: Any
+    model: Model
+    parts: Parts
+
+    @staticmethod
+    def of(robot: Any) -> Judge:
+        """Of the robot block of a plan.
+
+        Raises:
+            DocumentError: it is malformed.
+        """
+        model = read_model(robot)
+        return Judge(robot, model, Parts.of(model))
+
+    def certify(
+        self,
+        problem: Any,
+        trajectory: Any,
+        *,
+        max_boxes: int = MAX_BOXES,
+        exact: bool = False,
+    ) -> TrajectoryCertificate:
+        """As :func:`certify_trajectory`."""
+        began, model = time.perf_counter(), self.model
+        wish = reading.mapping(problem, "problem")
+        motion, qdd = read_motion(trajectory, model.nv)
+        with np.errstate(all="ignore"):
+            scene = read_scene(self.parts, wish, motion)
+            limits, broken = prove_limits(model, motion, exact=exact)
+            goal = read_goal(model, wish, motion)
+            effort = Effort(max_boxes, keep_leaves=exact)
+            found = prove_free(scene.model, scene.targets, scene.errors, motion, effort)
+            faults = _faults(model, wish, motion, trajectory.get("duration"), qdd)
+        if exact:
+            found = _exactly(self.document, wish, scene, motion, found)
+        result = _certificate(limits, broken, goal, found, faults, scene, began)
+        return replace(result, method=METHOD + EXACTLY) if exact else result
+
+
 def certify_trajectory(
     robot: Any,
     problem: Any,
@@ -110,21 +160,8 @@ def certify_trajectory(
     Raises:
         DocumentError: something in the three documents is malformed.
     """
-    began = time.perf_counter()
-    model = read_model(robot)
-    wish = reading.mapping(problem, "problem")
-    motion, qdd = read_motion(trajectory, model.nv)
-    with np.errstate(all="ignore"):
-        scene = read_scene(model, wish, motion)
-        limits, broken = prove_limits(model, motion, exact=exact)
-        goal = read_goal(model, wish, motion)
-        effort = Effort(max_boxes, keep_leaves=exact)
-        outcome = prove_free(scene.model, scene.targets, scene.errors, motion, effort)
-        faults = _faults(model, wish, motion, trajectory.get("duration"), qdd)
-    if exact:
-        outcome = _exactly(robot, wish, scene, motion, outcome)
-    result = _certificate(limits, broken, goal, outcome, faults, scene, began)
-    return replace(result, method=METHOD + EXACTLY) if exact else result
+    judge = Judge.of(robot)
+    return judge.certify(problem, trajectory, max_boxes=max_boxes, exact=exact)
 
 
 def _exactly(

@@ -9,9 +9,9 @@ import numpy as np
 
 from rrnn_opt.check.arithmetic.doubles import GROW
 from rrnn_opt.check.plans import hermite
-from rrnn_opt.check.plans.collision.bodies import Bodies, Index, with_balls
 from rrnn_opt.check.plans.collision.boxes import joint_pieces
 from rrnn_opt.check.plans.collision.movers import Movers
+from rrnn_opt.check.plans.collision.parts import Parts, Selection
 from rrnn_opt.check.plans.collision.rounding import (
     Rounding,
     rounding,
@@ -57,22 +57,22 @@ class Scene:
 
 
 def build_scene(
-    model: Model, obstacles: Sequence[Obstacle], margin: float, motion: Motion
+    parts: Parts, obstacles: Sequence[Obstacle], margin: float, motion: Motion
 ) -> Scene:
     """Pairs of all moving spheres with the obstacles, and of one another.
 
     Args:
-        model: the robot.
+        parts: of the robot.
         obstacles: convex solids.
         margin: least distance to an obstacle, m.
         motion: the rows.
     """
-    bodies = with_balls(model)
-    errors = rounding(bodies.model, motion.t, motion.q, motion.qd)
-    reach = reach_table(bodies.model, *_extents(model, motion, errors))
-    make = _Maker(bodies, reach, errors)
-    targets = [*make.against(obstacles, margin), make.itself()]
-    return Scene(bodies.model, targets, errors)
+    model = parts.bodies.model
+    errors = rounding(model, motion.t, motion.q, motion.qd)
+    reach = reach_table(model, *_extents(model, motion, errors))
+    make = _Maker(model, reach, errors)
+    targets = [*make.against(parts, obstacles, margin), make.itself(parts)]
+    return Scene(model, targets, errors)
 
 
 def _extents(model: Model, motion: Motion, errors: Rounding) -> tuple[Array, Array]:
@@ -89,60 +89,51 @@ def _extents(model: Model, motion: Motion, errors: Rounding) -> tuple[Array, Arr
     return points.min(axis=(0, 1)) - room, points.max(axis=(0, 1)) + room
 
 
-def _grouped(rows: Index) -> tuple[Index, Index, Index]:
-    """Different rows, and the rows' numbers group by group with group sizes."""
-    keys, group, sizes = np.unique(
-        rows, axis=0, return_inverse=True, return_counts=True
-    )
-    return keys, np.argsort(group.ravel(), kind="stable"), sizes
-
-
 @dataclass(frozen=True, eq=False)
 class _Maker:
-    """Makes the targets of one robot: coarse ones that know their finer ones."""
+    """Makes the targets of one motion: coarse ones that know their finer ones."""
 
-    bodies: Bodies
+    model: Model
     reach: Array
     errors: Rounding
 
-    def against(self, obstacles: Sequence[Obstacle], margin: float) -> list[Target]:
+    def against(
+        self, parts: Parts, obstacles: Sequence[Obstacle], margin: float
+    ) -> list[Target]:
         """Spheres against obstacles, body by body first."""
-        model, ns = self.bodies.model, self.bodies.ns
-        spheres = np.arange(ns)[model.carrier[:ns] >= 0]
-        keys, order, sizes = _grouped(self.bodies.body[spheres])
-        fine, balls = self._movers(spheres), self._movers(keys)
+        model, sides = self.model, [self._movers(s)[0] for s in parts.singles]
         far = float((self.errors.chains + model.radii).max(initial=0.0)) + margin
         targets: list[Target] = []
         for obstacle in obstacles:
             solid = solid_slack(far + obstacle.size)
-            inner = ObstacleTarget(model, obstacle, fine, margin, fine.room + solid)
-            finer, room = Finer(inner, order, sizes), balls.room + solid
-            targets.append(ObstacleTarget(model, obstacle, balls, margin, room, finer))
+            target: ObstacleTarget | None = None
+            for chosen, movers in zip(parts.singles, sides, strict=True):
+                finer, room = _finer(target, chosen), movers.room + solid
+                target = ObstacleTarget(model, obstacle, movers, margin, room, finer)
+            targets += [] if target is None else [target]
         return targets
 
-    def _movers(self, spheres: Index) -> Movers:
-        moved = self.bodies.model.sphere_moved_by[spheres]
-        return Movers.of(self.bodies.model, spheres, moved, self.reach, self.errors)
+    def _movers(self, chosen: Selection) -> tuple[Movers, ...]:
+        sides = zip(chosen.spheres.T, chosen.moved, strict=True)
+        return tuple(
+            Movers.of(self.model, spheres, moved, self.reach, self.errors)
+            for spheres, moved in sides
+        )
 
-    def itself(self) -> Target:
+    def itself(self, parts: Parts) -> Target:
         """Self pairs: bodies, then cells, then spheres."""
-        model = self.bodies.model
-        # two bodies that cannot move are nobody's concern
-        pairs = model.pairs[np.any(model.carrier[model.pairs] >= 0, axis=1)]
-        target = self._among(pairs)
-        for up in (self.bodies.cell, self.bodies.body):
-            pairs, order, sizes = _grouped(up[pairs])
-            target = self._among(pairs, Finer(target, order, sizes))
+        far = 2 * float((self.errors.chains + self.model.radii).max(initial=0.0))
+        target: SelfTarget | None = None
+        for chosen in parts.pairs:
+            first, second = self._movers(chosen)
+            room = (first.room + second.room) * GROW + solid_slack(far)
+            finer = _finer(target, chosen)
+            target = SelfTarget(self.model, (first, second), room, finer)
+        assert target is not None  # there is a level at least
         return target
 
-    def _among(self, pairs: Index, finer: Finer | None = None) -> SelfTarget:
-        model, errors = self.bodies.model, self.errors
-        i, j = pairs.T
-        moved = model.sphere_moved_by
-        sides = (
-            Movers.of(model, i, moved[i] & ~moved[j], self.reach, errors),
-            Movers.of(model, j, moved[j] & ~moved[i], self.reach, errors),
-        )
-        far = 2 * float((errors.chains + model.radii).max(initial=0.0))
-        room = (sides[0].room + sides[1].room) * GROW + solid_slack(far)
-        return SelfTarget(model, sides, room, finer)
+
+def _finer(target: Target | None, chosen: Selection) -> Finer | None:
+    if target is None or chosen.finer is None:
+        return None
+    return Finer(target, *chosen.finer)

@@ -7,6 +7,7 @@ import pytest
 from rrnn_opt.check.arithmetic.doubles import U
 from rrnn_opt.check.plans import inputs
 from rrnn_opt.check.plans.collision.boxes import Boxes, joint_pieces, poses
+from rrnn_opt.check.plans.collision.parts import Parts
 from rrnn_opt.check.plans.exact.robot import PRECISION, length, nearest_rotation
 from rrnn_opt.check.plans.exact.scene import BallScene
 from rrnn_opt.check.plans.motion import Motion
@@ -32,7 +33,7 @@ def case(robot, seed, rows=3, size=1.0):
     q = rng.uniform(low, high, (rows, model.nv)) * size
     qd = rng.normal(size=(rows, model.nv)) * 0.3
     motion = Motion.of(np.arange(rows) * 0.37, q, qd)
-    scene = inputs.read_scene(model, PROBLEM, motion)
+    scene = inputs.read_scene(Parts.of(model), PROBLEM, motion)
     boxes = Boxes.whole(0, rows - 1).halves(np.arange(rows - 1))
     boxes = boxes.halves(np.arange(len(boxes.half)))
     now = poses(

@@ -6,6 +6,7 @@ import pytest
 from rrnn_opt.check.plans import inputs
 from rrnn_opt.check.plans.collision.bodies import CELL
 from rrnn_opt.check.plans.collision.boxes import Boxes, joint_pieces, poses
+from rrnn_opt.check.plans.collision.parts import Parts
 from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.robot import kinematics
 from rrnn_opt.check.plans.robot.model import read_model
@@ -65,7 +66,7 @@ def test_no_bound_exceeds_the_least_distance_in_its_box(robot, orders):
     tight = 0
     for _ in range(12):
         motion = motion_of(model, rng, orders)
-        scene = inputs.read_scene(model, {"obstacles": OBSTACLES}, motion)
+        scene = inputs.read_scene(Parts.of(model), {"obstacles": OBSTACLES}, motion)
         now = look(scene, motion, Boxes.whole(0, 1))
         dense = at_instants(scene, motion, np.linspace(0, 1, SAMPLES))
         for target in levels(scene):
@@ -92,7 +93,7 @@ def test_a_slide_is_followed_to_its_largest_extension(tree):
     qd = np.zeros((2, 4))
     qd[:, 1] = [1.2, -1.2]  # bulges by 0.3 m
     motion = Motion.of(t, q, qd)
-    scene = inputs.read_scene(model, {"obstacles": OBSTACLES}, motion)
+    scene = inputs.read_scene(Parts.of(model), {"obstacles": OBSTACLES}, motion)
     model = scene.model
     dense = at_instants(scene, motion, np.linspace(0, 1, 101))
     movers = scene.targets[0].finer.target.movers
@@ -102,7 +103,7 @@ def test_a_slide_is_followed_to_its_largest_extension(tree):
     away = np.linalg.norm(centres[:, :, None] - dense.origins[:, None], axis=3)
     assert np.all(away.max(axis=0)[turning] <= movers.reach[turning] + 1e-12)
     still = inputs.read_scene(
-        model, {"obstacles": OBSTACLES}, Motion.of(t, q, np.zeros_like(qd))
+        Parts.of(model), {"obstacles": OBSTACLES}, Motion.of(t, q, np.zeros_like(qd))
     )
     shorter = still.targets[0].finer.target.movers.reach[: len(movers.spheres)]
     assert np.any(away.max(axis=0)[turning] > shorter[turning])

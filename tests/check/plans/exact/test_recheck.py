@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from rrnn_opt.check import certify_trajectory, check_plan
+from rrnn_opt.check.plans.collision.parts import Parts
 from rrnn_opt.check.plans.collision.proof import Effort, prove_free
 from rrnn_opt.check.plans.exact.cover import tiled
 from rrnn_opt.check.plans.exact.recheck import recheck
@@ -52,7 +53,7 @@ def proof(robot, problem, rows):
     """A scene in balls, the doubles' verdict, and what they proved where."""
     model = read_model(robot)
     motion, _ = read_motion(rows, model.nv)
-    scene = read_scene(model, problem, motion)
+    scene = read_scene(Parts.of(model), problem, motion)
     effort = Effort(20_000, keep_leaves=True)
     found = prove_free(scene.model, scene.targets, scene.errors, motion, effort)
     return BallScene(robot, problem, scene, motion), found
