@@ -79,6 +79,15 @@ class LeakyCell(MemoryCell):
 
 
 @dataclass(frozen=True)
+class SuccessCell(MemoryCell):
+    """The cell (14) the other way round: I = 1 when the target was reached."""
+
+    def flow(self, x: ca.SX, stimulus: ca.SX) -> ca.SX:
+        """Activity after one exploration."""
+        return super().flow(x, 1 - stimulus)
+
+
+@dataclass(frozen=True)
 class HeuristicFirst(MemoryCell):
     """No learning but for the first exploration, which is heuristic.
 
@@ -106,6 +115,8 @@ VARIANTS: dict[str, PlannerSettings] = {
     "heuristic first, then a fair coin": RandomRnn(cell=HeuristicFirst()),
     "heuristic first, then 0.64": RandomRnn(cell=HeuristicFirst(probability=0.64)),
     "heuristic first, then 0.9": RandomRnn(cell=HeuristicFirst(probability=0.9)),
+    "heuristic first, then 1": RandomRnn(cell=HeuristicFirst(probability=1.0)),
+    "(14), I = success": RandomRnn(cell=SuccessCell()),
     "always 0.1": RandomRnn(coin=0.1),
     "always 0.25": RandomRnn(coin=0.25),
     "always 0.75": RandomRnn(coin=0.75),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,43 +11,12 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.planning import Problem
-from rrnn_opt.planning.request import pack
-from rrnn_opt.planning.searches import open_search, runtime_for
 from rrnn_opt.planning.settings import PlannerSettings
 from rrnn_opt.study import Case, wilson
 from rrnn_opt.validation.tables.cell import markdown
 from rrnn_opt.validation.tables.collect import collect, surroundings
+from rrnn_opt.validation.tables.searched import searched
 from rrnn_opt.validation.tables.starts import start_problem
-
-SLICE_S = 3600.0
-
-
-def searched(
-    problem: Problem, settings: PlannerSettings, seed: int, budget: int
-) -> dict[str, Any]:
-    """Outcome, explorations and time of one search.
-
-    Args:
-        problem: with tip goals.
-        settings: of the planner.
-        seed: of the search.
-        budget: explorations at most.
-    """
-    runtime = runtime_for(problem.robot, settings)
-    packed = pack(problem, (), tuple(problem.goals), seed)  # type: ignore[arg-type]
-    begin = time.perf_counter()
-    with open_search(runtime, settings, packed) as search:
-        status = search.run(budget, SLICE_S)
-        seconds = time.perf_counter() - begin
-        counts = search.counts()
-    return {
-        "status": status,
-        "solved": status == "solved",
-        "random": counts.random,
-        "heuristic": counts.heuristic,
-        "total": counts.random + counts.heuristic,
-        "plan_ms": 1e3 * seconds,
-    }
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,14 @@
 import numpy as np
 import pytest
 
+from rrnn_opt.planning import Problem, plan
 from rrnn_opt.scene.library import scenario
 from rrnn_opt.validation.tables import table_3, table_4
 from rrnn_opt.validation.tables.cell import judged, markdown
 from rrnn_opt.validation.tables.collect import collect
+from rrnn_opt.validation.tables.searched import searched
 from rrnn_opt.validation.tables.starts import IN_FRONT, drawn_starts, start_problem
-from rrnn_opt.validation.tables.trials import PlanningTrials
+from rrnn_opt.validation.tables.trials import TRIALS, PlanningTrials
 
 
 def row(scene, planner, trial, solved=True, total=3):
@@ -87,3 +89,13 @@ def test_markdown():
     assert markdown(("a", "b"), [(1.23456, None)]) == (
         "| a | b |\n| --- | --- |\n| 1.235 | - |"
     )
+
+
+@pytest.mark.parametrize("name", ["random-rnn", "paper, I = failure"])
+def test_the_search_that_is_timed_is_the_one_that_is_planned(name):
+    problem = Problem.from_dict(start_problem("plane", 3))
+    row = searched(problem, TRIALS[name], 3, 60)
+    result = plan(problem, seed=3, settings=TRIALS[name], max_explorations=60)
+    assert row["random"] == result.stats.random
+    assert row["heuristic"] == result.stats.heuristic
+    assert row["solved"] == (result.path is not None)
