@@ -16,7 +16,6 @@ from __future__ import annotations
 import argparse
 import contextlib
 import itertools
-import json
 import multiprocessing
 import platform
 import resource
@@ -34,7 +33,7 @@ from benchmarks.follow import ends_error, follow, sampled
 from benchmarks.soak_scenes import makers
 from rrnn_opt.planning import plan
 from rrnn_opt.report import write_text
-from rrnn_opt.study import wilson
+from rrnn_opt.study import Lines, read_lines, wilson
 
 RESULTS = Path(__file__).parents[1] / "runs" / "soak"
 PLANS, DENSE, TIME_LIMIT = 100_000, 300, 20.0
@@ -54,7 +53,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     args.out.mkdir(parents=True, exist_ok=True)
     if not args.table:
         makers(args.out)  # spheres are fitted once
-        _spread(args.out, args.plans, args.jobs, time.time() + 3600 * args.hours)
+        _spread(args.out, args.plans, args.jobs, time.monotonic() + 3600 * args.hours)
     found = rows(args.out)
     write_text(args.out / "soak.md", report(found))
     print(report(found))
@@ -79,14 +78,13 @@ def _work(
 ) -> None:
     """Every ``jobs``-th plan that is not done yet, one line each."""
     kinds, commit = makers(out), _commit()
-    with (out / f"rows.{job}.jsonl").open("a", encoding="utf-8") as file:
-        for n in range(job, plans, jobs):
-            if time.time() > until:
-                return
-            if n not in done:
-                row = {**judged(n, kinds), "commit": commit, "job": job}
-                file.write(json.dumps({**row, "memory_mb": _memory_mb()}) + "\n")
-                file.flush()
+    lines = Lines(out / f"rows.{job}.jsonl")
+    for n in range(job, plans, jobs):
+        if time.monotonic() > until:
+            return
+        if n not in done:
+            row = {**judged(n, kinds), "commit": commit, "job": job}
+            lines.append({**row, "memory_mb": _memory_mb()})
 
 
 def _memory_mb() -> float:
@@ -144,11 +142,7 @@ def rows(out: Path) -> list[dict[str, Any]]:
     """What was finished; a line that was cut off by a kill does not count."""
     found: dict[int, dict[str, Any]] = {}
     for path in sorted(out.glob("rows.*.jsonl")):
-        for line in path.read_text("utf-8").splitlines():
-            try:
-                row = json.loads(line)
-            except json.JSONDecodeError:
-                continue
+        for row in filter(None, read_lines(path)):
             found.setdefault(row["n"], row)
     return [found[n] for n in sorted(found)]
 

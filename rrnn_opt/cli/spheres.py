@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rrnn_opt.cli.arguments import count, seconds
+from rrnn_opt.cli.folders import folder
 from rrnn_opt.cli.output import Output, UsageError
 
 HELP = "fit collision spheres to a URDF's geometry and prove that they cover it"
@@ -46,11 +47,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace, out: Output) -> int:
     """Fit, prove, write; 1 when something is not shown to be covered."""
+    from rrnn_opt.report import write_text
     from rrnn_opt.robot.spheres import fit_spheres
 
     target = Path(args.out)
     if target.is_dir():
         raise UsageError(f"{target} is a folder; give --out the name of a file")
+    folder(str(target.parent))
     fitted = fit_spheres(
         args.urdf,
         tip=args.tip,
@@ -58,8 +61,7 @@ def run(args: argparse.Namespace, out: Output) -> int:
         most=args.most,
         folders=tuple(Path(folder) for folder in args.package_dir),
     )
-    target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(json.dumps(fitted.to_dict(), indent=1) + "\n", encoding="utf-8")
+    write_text(target, json.dumps(fitted.to_dict(), indent=1) + "\n")
     facts = described(fitted, str(target))
     out.document(facts)
     out.say(_text(facts))

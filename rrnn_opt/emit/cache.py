@@ -15,6 +15,7 @@ import hashlib
 import os
 import pathlib
 import shutil
+import stat
 import tempfile
 import time
 from collections.abc import Iterator
@@ -28,6 +29,9 @@ except ImportError:  # pragma: no cover - only POSIX has file locks of this kind
 
 _MARK = b"\nrrnn_opt sha256 "
 _STALE = 3600.0  # [s]
+_FORGOTTEN = 86400.0  # [s]
+PREFIX = "rrnn_opt-"
+"""Of folders in the system's temporary folder."""
 
 
 def cache_folder() -> pathlib.Path:
@@ -47,7 +51,7 @@ def private_folder() -> pathlib.Path:
         CompilerError: no temporary folder can be written either.
     """
     try:
-        folder = pathlib.Path(tempfile.mkdtemp(prefix="rrnn_opt-"))
+        folder = pathlib.Path(tempfile.mkdtemp(prefix=PREFIX))
     except OSError as error:
         raise CompilerError(
             f"nowhere to write compiled code ({error}):"
@@ -104,8 +108,18 @@ def lock(folder: pathlib.Path, key: str) -> Iterator[None]:
 
 
 def sweep(folder: pathlib.Path) -> None:
-    """Remove temporary files that a killed process left an hour ago or more."""
+    """Remove what killed processes left: files here, folders among the temporary.
+
+    Nothing depends on the clock but how long they stay: a folder of a process that
+    lives on is made again when it is needed.
+    """
     for path in folder.glob(".new-*.tmp"):
         with contextlib.suppress(OSError):
             if time.time() - path.stat().st_mtime > _STALE:
                 path.unlink()
+    for path in pathlib.Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
+        with contextlib.suppress(OSError):
+            seen = path.lstat()
+            old = time.time() - seen.st_mtime > _FORGOTTEN
+            if old and stat.S_ISDIR(seen.st_mode) and seen.st_uid == os.getuid():
+                shutil.rmtree(path, ignore_errors=True)

@@ -135,7 +135,7 @@ def compile_text(
         CompilerError: it refuses, hangs, or has no room for its files.
     """
     try:
-        with tempfile.TemporaryDirectory(prefix="rrnn_opt-") as folder:
+        with tempfile.TemporaryDirectory(prefix=cache.PREFIX) as folder:
             text, out = pathlib.Path(folder, "tu.c"), pathlib.Path(folder, "tu.so")
             text.write_text(source, encoding="utf-8")
             command = [*compiler.command, *words, str(text), "-o", str(out), "-lm"]

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import re
 import tempfile
+import time
 from pathlib import Path
+
+STALE = 3600.0
+"""Age in seconds from which a temporary file is nobody's any more."""
 
 
 def write_bytes(path: str | Path, data: bytes) -> Path:
@@ -22,6 +28,7 @@ def write_bytes(path: str | Path, data: bytes) -> Path:
             and nothing half-written is left.
     """
     target = Path(path)
+    _sweep(target)
     handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     try:
         with os.fdopen(handle, "wb") as file:
@@ -43,6 +50,17 @@ def write_text(path: str | Path, text: str) -> Path:
         OSError: as there.
     """
     return write_bytes(path, text.encode("utf-8"))
+
+
+def _sweep(target: Path) -> None:
+    """Remove what runs that were killed left of this file an hour ago or more."""
+    name = re.compile(rf"\.{re.escape(target.name)}\.[a-z0-9_]{{8}}")
+    with contextlib.suppress(OSError), os.scandir(target.parent) as found:
+        for entry in found:
+            if name.fullmatch(entry.name):
+                with contextlib.suppress(OSError):
+                    if time.time() - entry.stat().st_mtime > STALE:
+                        os.unlink(entry)
 
 
 def _umask() -> int:

@@ -12,6 +12,7 @@ from rrnn_opt.report.files import write_text
 from rrnn_opt.report.page import write_page
 from rrnn_opt.report.picture import draw_plan
 
+DRAWN = ("trajectory.csv", "plan.png", "plan.html")
 BLOCKS = ("q", "qd", "qdd")
 
 
@@ -25,6 +26,9 @@ def write_plan(document: dict[str, Any], folder: str | Path) -> tuple[Path, ...]
     Returns:
         The files written; there is no CSV without a trajectory.
 
+    Files of an earlier plan in that folder go first, so that no kill and no full
+    disk leaves two plans mixed.
+
     Raises:
         DocumentError: the document is not a plan result.
         OSError: a file cannot be written; it is then not there at all.
@@ -32,6 +36,8 @@ def write_plan(document: dict[str, Any], folder: str | Path) -> tuple[Path, ...]
     target = Path(folder)
     target.mkdir(parents=True, exist_ok=True)
     text = json.dumps(document, indent=1, allow_nan=False) + "\n"
+    for name in DRAWN:  # of an earlier plan: they must not stand beside this one
+        (target / name).unlink(missing_ok=True)
     paths = [write_text(target / "plan.json", text)]
     if document.get("trajectory"):
         rows = csv_text(document["trajectory"])

@@ -2,6 +2,7 @@
 
 from rrnn_opt.study.cluster import Cluster
 from rrnn_opt.study.environment import environment, processor
+from rrnn_opt.study.lines import Lines, read_lines
 from rrnn_opt.study.processes import Here, Processes, WorkerError
 from rrnn_opt.study.progress import Progress
 from rrnn_opt.study.results import Results, rows_digest, table
@@ -23,6 +24,7 @@ __all__ = [
     "Case",
     "Cluster",
     "Here",
+    "Lines",
     "Processes",
     "Progress",
     "Results",
@@ -38,6 +40,7 @@ __all__ = [
     "one_thread",
     "pin_threads",
     "processor",
+    "read_lines",
     "rows",
     "rows_digest",
     "run",

@@ -6,6 +6,7 @@ import json
 from importlib import metadata
 from pathlib import Path
 
+from rrnn_opt.report import write_text
 from rrnn_opt.robot import Robot
 from rrnn_opt.robot.spheres import fit_spheres
 
@@ -44,7 +45,7 @@ def arm(name: str, out: Path) -> Robot:
         fitted = fit_spheres(urdf, tips=tips, inflation=INFLATION, most=MOST)
         if not fitted.covered:
             raise RuntimeError(f"the spheres of {name} do not cover it")
-        spheres.write_text(json.dumps(fitted.to_dict()), encoding="utf-8")
+        write_text(spheres, json.dumps(fitted.to_dict()))
     return Robot.from_urdf(urdf, tips=tips, spheres=spheres)
 
 

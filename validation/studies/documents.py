@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from rrnn_opt.report import write_text
 from rrnn_opt.validation.studies.page import markdown
 from rrnn_opt.validation.studies.tally import AnswerTally, PointTally, add, plain
 
@@ -47,14 +49,14 @@ def write(out: Path, results: Rows, *, title: Sequence[str]) -> Path:
     table = pairs(results)
     words = [row for row in results if "infeasible" in row]
     data = {"title": list(title), "pairs": table, "infeasible": words}
-    (out / "ground_truth.json").write_text(json.dumps(data, indent=1), "utf-8")
-    with (out / "ground_truth.csv").open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, [*_PAIR, *_POINTS, *_ANSWER])
-        writer.writeheader()
-        writer.writerows(table)
-    page = out / "ground_truth.md"
-    page.write_text(markdown(results, table, title=title), "utf-8")
-    return page
+    write_text(out / "ground_truth.json", json.dumps(data, indent=1))
+    rows = io.StringIO(newline="")
+    writer = csv.DictWriter(rows, [*_PAIR, *_POINTS, *_ANSWER])
+    writer.writeheader()
+    writer.writerows(table)
+    write_text(out / "ground_truth.csv", rows.getvalue())
+    text = markdown(results, table, title=title)
+    return write_text(out / "ground_truth.md", text)
 
 
 def pairs(results: Rows) -> list[dict[str, Any]]:

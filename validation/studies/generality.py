@@ -13,7 +13,6 @@ scene is one line of DIR/rows.jsonl: a run that is stopped goes on.
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -23,6 +22,8 @@ import numpy as np
 
 from rrnn_opt.planning import Problem, plan
 from rrnn_opt.planning.goals import JointGoal
+from rrnn_opt.report import write_text
+from rrnn_opt.study import Lines, read_lines
 from rrnn_opt.validation.studies.arms import ARMS, arm
 from rrnn_opt.validation.studies.clutter import scenes
 from rrnn_opt.validation.studies.generality_page import page
@@ -56,13 +57,7 @@ def measured(name: str, index: int, problem: Problem, peer: bool) -> dict[str, A
 
 def read(path: Path) -> list[dict[str, Any]]:
     """Finished rows; a line that was cut off by a kill does not count."""
-    found = []
-    for line in path.read_text("utf-8").splitlines() if path.is_file() else []:
-        try:
-            found.append(json.loads(line))
-        except json.JSONDecodeError:
-            continue
-    return found
+    return [row for row in read_lines(path) if row is not None]
 
 
 def run(
@@ -78,19 +73,17 @@ def run(
         peer: also run OMPL's RRTConnect.
     """
     out.mkdir(parents=True, exist_ok=True)
-    path = out / "rows.jsonl"
-    done = {(r["arm"], r["scene"], r["seed"]): r for r in read(path)}
-    with path.open("a", encoding="utf-8") as file:
-        for name in names:
-            drawn = scenes(arm(name, out), count, seed)
-            for index in range(count):
-                row = done.get((name, index, seed))
-                problem = next(drawn)
-                if row is None:
-                    row = {**measured(name, index, problem, peer), "seed": seed}
-                    file.write(json.dumps(row) + "\n")
-                    file.flush()
-                yield row
+    lines = Lines(out / "rows.jsonl")
+    done = {(r["arm"], r["scene"], r["seed"]): r for r in lines}
+    for name in names:
+        drawn = scenes(arm(name, out), count, seed)
+        for index in range(count):
+            row = done.get((name, index, seed))
+            problem = next(drawn)
+            if row is None:
+                row = {**measured(name, index, problem, peer), "seed": seed}
+                lines.append(row)
+            yield row
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -105,9 +98,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     peer = not args.no_peer
     rows = list(run(args.arms, args.out, args.scenes, args.seed, peer=peer))
     command = f"{COMMAND} --scenes {args.scenes} --seed {args.seed} --out DIR"
-    (args.out / "generality.md").write_text(
-        page(rows, command, (TIME_LIMIT, PEER_LIMIT)), encoding="utf-8"
-    )
+    text = page(rows, command, (TIME_LIMIT, PEER_LIMIT))
+    write_text(args.out / "generality.md", text)
     return 0
 
 

@@ -22,6 +22,7 @@ import numpy as np
 
 from rrnn_opt.report import draw_region, write_text
 from rrnn_opt.robot import Kinematics, Robot
+from rrnn_opt.study import Lines
 from rrnn_opt.verification.region import Region, RegionCell, RegionMap
 from rrnn_opt.verification.region.cell import Law, Tools, certify_cell
 from rrnn_opt.verification.region.certify import (
@@ -45,15 +46,13 @@ def main() -> int:
     pair = telling_joints(tools, region)
     work = list(tiles(region, pair, (given.grid, given.grid)))
     given.out.mkdir(parents=True, exist_ok=True)
-    lines = given.out / "tiles.jsonl"
-    done = len(lines.read_text().splitlines()) if lines.exists() else 0
+    lines = Lines(given.out / "tiles.jsonl")
+    done = sum(1 for _ in lines)
     begin = time.monotonic()
-    with lines.open("a", encoding="utf-8") as file:
-        for item in work[done:]:
-            cell = certify_cell(tools, law, *item, seconds=given.tile_seconds)
-            file.write(json.dumps(asdict(cell)) + "\n")
-            file.flush()
-    cells = tuple(_cell(json.loads(line)) for line in lines.read_text().splitlines())
+    for item in work[done:]:
+        cell = certify_cell(tools, law, *item, seconds=given.tile_seconds)
+        lines.append(asdict(cell))
+    cells = tuple(_cell(line) for line in lines)
     spent = time.monotonic() - begin
     found = RegionMap(
         kinematics.robot.name,

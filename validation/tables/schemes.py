@@ -23,6 +23,7 @@ from rrnn_opt import formulations, networks
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulations import closed_loop
 from rrnn_opt.networks import DualNetwork
+from rrnn_opt.report import write_text
 from rrnn_opt.simulation import SimulationResult, Task, simulate
 from rrnn_opt.validation.tables.arm import arm
 from rrnn_opt.validation.tables.cell import markdown
@@ -163,7 +164,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print(text)
     if given.out is not None:
         given.out.mkdir(parents=True, exist_ok=True)
-        (given.out / "schemes.md").write_text(text, "utf-8")
+        write_text(given.out / "schemes.md", text)
     return 0
 
 

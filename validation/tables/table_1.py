@@ -18,6 +18,7 @@ from typing import Any
 
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.planning import Problem, plan
+from rrnn_opt.report import write_text
 from rrnn_opt.validation.tables import checks
 from rrnn_opt.validation.tables.blocked import blocked, least
 from rrnn_opt.validation.tables.checks import Finding, yes
@@ -185,9 +186,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print(text)
     if given.out is not None:
         given.out.mkdir(parents=True, exist_ok=True)
-        (given.out / "table_1.md").write_text(text, "utf-8")
+        write_text(given.out / "table_1.md", text)
         data = json.dumps({"cells": cells(found, command=command)}, indent=1) + "\n"
-        (given.out / "table_1.json").write_text(data, "utf-8")
+        write_text(given.out / "table_1.json", data)
     return 0
 
 

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rrnn_opt.report import write_text
 from rrnn_opt.validation.tables import tracking
 from rrnn_opt.validation.tables.cell import Cell, Verdict, judged
 from rrnn_opt.validation.tables.page import head, spelled
@@ -226,9 +227,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print(text)
     if given.out is not None:
         given.out.mkdir(parents=True, exist_ok=True)
-        (given.out / "table_2.md").write_text(text, "utf-8")
+        write_text(given.out / "table_2.md", text)
         data = json.dumps(document(found, command), indent=1) + "\n"
-        (given.out / "table_2.json").write_text(data, "utf-8")
+        write_text(given.out / "table_2.json", data)
     return 0
 
 
