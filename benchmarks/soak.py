@@ -192,8 +192,8 @@ def _drift(found: list[dict[str, Any]]) -> list[str]:
         memory = [np.median([row["memory_mb"] for row in rows]) for rows in ends]
         cpu = [np.median([1e3 * row["all_s"] for row in rows]) for rows in ends]
         told.append(
-            f"- process {job}, {len(mine)} plans: {memory[0]:.0f} to {memory[1]:.0f} MB,"
-            f" CPU p50 {cpu[0]:.1f} to {cpu[1]:.1f} ms."
+            f"- process {job}, {len(mine)} plans: {memory[0]:.0f} to"
+            f" {memory[1]:.0f} MB, CPU p50 {cpu[0]:.1f} to {cpu[1]:.1f} ms."
         )
     return told if len(told) > 3 else []
 
