@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +13,7 @@ from rrnn_opt.errors import NotFiniteError, ShapeError
 Array = NDArray[np.float64]
 SAME = 1e-9
 """Waypoints nearer than this (largest coordinate, rad or m) are one."""
+TINY = 1e-300
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,11 +49,14 @@ class Path:
         """Last waypoint, (nv,)."""
         return np.asarray(self.waypoints[-1])
 
-    @property
+    @cached_property
     def arcs(self) -> Array:
         """Euclidean length from the start to each waypoint, (N,)."""
-        steps = np.linalg.norm(np.diff(self.waypoints, axis=0), axis=1)
-        return np.concatenate([[0.0], np.cumsum(steps)])
+        steps = np.diff(self.waypoints, axis=0)
+        arcs = np.zeros(len(self.waypoints))
+        np.cumsum(np.sqrt(np.einsum("ij,ij->i", steps, steps)), out=arcs[1:])
+        arcs.flags.writeable = False
+        return arcs
 
     @property
     def length(self) -> float:
@@ -68,8 +73,14 @@ class Path:
             (M, nv); exactly the first and last waypoint at the ends.
         """
         wanted, arcs = np.asarray(arc, dtype=np.float64), self.arcs
-        columns = [np.interp(wanted, arcs, column) for column in self.waypoints.T]
-        return np.stack(columns, axis=-1)
+        if len(arcs) == 1:
+            return np.repeat(self.waypoints, len(wanted), axis=0)
+        piece = np.searchsorted(arcs[1:-1], wanted, side="right")
+        first, long = arcs[piece], np.maximum(arcs[piece + 1] - arcs[piece], TINY)
+        share = np.clip((wanted - first) / long, 0.0, 1.0)[..., None]
+        ends = self.waypoints[piece], self.waypoints[piece + 1]
+        between = ends[0] + share * (ends[1] - ends[0])
+        return np.asarray(np.where(share >= 1.0, ends[1], between))
 
     def without_duplicates(self, tolerance: float = SAME) -> Path:
         """The path without waypoints that repeat the one before.
@@ -77,6 +88,9 @@ class Path:
         The start and the goal are kept exactly; two rows remain at least,
         unless the path is a single point.
         """
+        steps = np.abs(np.diff(self.waypoints, axis=0))
+        if np.all(steps.max(axis=1, initial=0.0) > tolerance):
+            return self
         kept = [0]
         for k in range(1, len(self.waypoints)):
             step = np.abs(self.waypoints[k] - self.waypoints[kept[-1]])

@@ -100,6 +100,12 @@ class OpenGoals:
     joints: tuple[Array, ...]
     tips: tuple[TipGoal, ...]
 
+    def nearest(self, start: Array) -> float:
+        """No path to a goal is shorter, rad or m; 0 where goals of the tip are open."""
+        if self.tips or not self.joints:
+            return 0.0
+        return min(float(np.linalg.norm(q - start)) for q in self.joints)
+
 
 def open_goals(problem: Problem, search: Search) -> OpenGoals | Infeasible:
     """Goals worth a search, or the proof that none is left."""

@@ -170,7 +170,12 @@ def _delivered(
 
     if isinstance(run.settings, RandomRnn):
         refined = refine(
-            search, another, run.settings, run.seed, improve_s=run.improve_s
+            search,
+            another,
+            run.settings,
+            run.seed,
+            shortest=goals.nearest(run.problem.start),
+            improve_s=run.improve_s,
         )
         run.path = refined.path
         run.figures["refinements"] = refined.rounds

@@ -16,6 +16,8 @@ from rrnn_opt.planning.settings import RandomRnn
 Array = NDArray[np.float64]
 NewSearch = Callable[[int], Search]
 STRAIGHT_SHORTCUTS = 20
+NEARLY = 1.02
+"""A path at most so many times as long as the shortest is not worth a search."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,50 +48,75 @@ def refine(
     settings: RandomRnn,
     seed: int,
     *,
+    shortest: float = 0.0,
     improve_s: float = 0.0,
 ) -> Refined:
     """The shortest of several paths, each shortened by slides, then straightened.
 
     Searches after the first get twice its explorations and 20 more, so that a
-    problem that was easy stays fast and no clock decides the result.  With
-    ``improve_s`` this goes on, a search and slides along the best path in turn,
-    until so many seconds are spent.
+    problem that was easy stays fast and no clock decides the result.  They end
+    early where they cannot help: the path is nearly the shortest that there can
+    be, or a search finds what the first one found (its first slide draws nothing
+    at random, so the others would, too).  With ``improve_s`` they go on, a search
+    and slides along the best path in turn, until so many seconds are spent.
 
     Args:
         first: a search that found a path.
         new_search: another search of the same problem, by its number 1, 2, ...
         settings: numbers of searches and slides.
         seed: of the straight shortcuts.
+        shortest: no path can be shorter, rad or m; 0 where that is not known.
         improve_s: seconds to go on after the settings' rounds.
 
     Returns:
         The path, every segment proved, and what it took.
     """
     counts, raw = first.counts(), first.path()
-    budget = 2 * (counts.random + counts.heuristic) + 20
-    best = first.shorten(raw, settings.shorten_slides)
-    rounds, end = 0, time.perf_counter() + improve_s
-    while rounds < settings.refinements or time.perf_counter() < end:
+    budget, slides = (
+        2 * (counts.random + counts.heuristic) + 20,
+        settings.shorten_slides,
+    )
+    best = _shortened(first, raw, slides, np.inf)
+    rounds, end, new = 0, time.perf_counter() + improve_s, True
+    while True:
+        hope = new and length(best) > NEARLY * shortest
+        within = rounds < settings.refinements
+        if not (hope and within) and time.perf_counter() >= end:
+            break
         rounds += 1
-        path = _another(new_search(rounds), budget, settings.shorten_slides)
-        best = best if path is None else min(best, path, key=length)
-        if rounds > settings.refinements:
-            best = first.shorten(best, settings.shorten_slides)
-    rng = np.random.default_rng([seed, 1])
+        with new_search(rounds) as search:
+            path = _found(search, budget)
+            if path is not None:
+                new = not np.array_equal(path, raw)
+                path = _shortened(search, path, slides, length(best))
+                best = min(best, path, key=length)
+        if not within:
+            best = first.shorten(best, slides)
     clear = settings.steering_margin
     straight = shortcut(
         best,
         lambda a, b: first.segment_free(a, b, clearance=clear),
-        rng=rng,
+        rng=np.random.default_rng([seed, 1]),
         attempts=STRAIGHT_SHORTCUTS,
     )
     return Refined(straight, rounds, length(raw), length(straight))
 
 
-def _another(search: Search, budget: int, slides: int) -> Array | None:
-    """The shortened path of another search, or None when it found none."""
-    with search as other:
-        status = "paused"
-        while status == "paused":
-            status = other.run(budget, 1.0)
-        return other.shorten(other.path(), slides) if status == "solved" else None
+def _found(search: Search, budget: int) -> Array | None:
+    """The path of a search, or None when it found none."""
+    status = "paused"
+    while status == "paused":
+        status = search.run(budget, 1.0)
+    return search.path() if status == "solved" else None
+
+
+def _shortened(search: Search, path: Array, slides: int, best: float) -> Array:
+    """The path after some slides, or as it is where they cannot help.
+
+    No path between its ends is shorter than their distance: slides are left out
+    where that is the path's length already, or no less than ``best``.
+    """
+    apart = float(np.linalg.norm(path[-1] - path[0]))
+    if apart >= best or length(path) <= NEARLY * apart:
+        return path
+    return search.shorten(path, slides)
