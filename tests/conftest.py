@@ -12,3 +12,17 @@ def _interruptible():
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _compiled(request, tmp_path_factory):
+    """All workers and later sessions share what is compiled, apart from the user's.
+
+    An entry's name holds the hash of its source, flags, compiler and CPU, so none
+    is ever out of date; tests of the cache itself take folders of their own.
+    """
+    kept = getattr(request.config, "cache", None)  # none with -p no:cacheprovider
+    folder = kept.mkdir("compiled") if kept else tmp_path_factory.mktemp("compiled")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("RRNN_CACHE_DIR", str(folder))
+        yield

@@ -5,28 +5,37 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
+
+from rrnn_opt.cli.main import main
 
 Run = Callable[..., subprocess.CompletedProcess]
 
 
-@pytest.fixture(scope="session")
-def cache(tmp_path_factory) -> Path:
-    """One cache of compiled code for all commands of a session."""
-    return tmp_path_factory.mktemp("cache")
+@pytest.fixture
+def rrnn(tmp_path, monkeypatch, capfd) -> Run:
+    """Run the command line in this process, in an empty folder."""
+
+    def call(*words: str) -> subprocess.CompletedProcess:
+        capfd.readouterr()
+        with monkeypatch.context() as patch:
+            patch.chdir(tmp_path)
+            code = main(words)
+        return subprocess.CompletedProcess(words, code, *capfd.readouterr())
+
+    return call
 
 
 @pytest.fixture
-def rrnn(cache, tmp_path) -> Run:
+def program(tmp_path) -> Run:
     """Run the command line in a process of its own, in an empty folder."""
 
     def call(*words: str, **env: str) -> subprocess.CompletedProcess:
         return subprocess.run(
             [sys.executable, "-m", "rrnn_opt.cli.main", *words],
             cwd=tmp_path,
-            env=os.environ | {"RRNN_CACHE_DIR": str(cache)} | env,
+            env=os.environ | env,
             capture_output=True,
             text=True,
             timeout=120,

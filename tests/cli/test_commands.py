@@ -25,9 +25,8 @@ seed = 5
 
 
 @pytest.fixture(autouse=True)
-def here(monkeypatch, tmp_path, cache):
+def here(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("RRNN_CACHE_DIR", str(cache))
 
 
 def document(capfd) -> dict:

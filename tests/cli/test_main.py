@@ -1,5 +1,4 @@
 import json
-import os
 import subprocess
 import sys
 
@@ -10,8 +9,8 @@ from rrnn_opt.cli.main import COMMANDS, main
 HEAVY = ("numpy", "casadi", "matplotlib", "pinocchio", "scipy")
 
 
-def test_help_loads_no_numerical_library(rrnn):
-    shown = rrnn("--help")
+def test_help_loads_no_numerical_library(program):
+    shown = program("--help")
     assert shown.returncode == 0
     for name in COMMANDS:
         assert f"    {name} " in shown.stdout
@@ -113,7 +112,7 @@ def test_nan_never_leaves_as_json(capfd, monkeypatch):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("option", ["", "--json"])
-def test_a_reader_that_leaves_early_stops_nothing(tmp_path, cache, option):
+def test_a_reader_that_leaves_early_stops_nothing(tmp_path, option):
     problem = {
         "robot": "planar3",
         "start": [0.0, 0.5, 0.5],
@@ -124,7 +123,6 @@ def test_a_reader_that_leaves_early_stops_nothing(tmp_path, cache, option):
     done = subprocess.run(
         ["bash", "-c", f"set -o pipefail; {command} | true"],
         cwd=tmp_path,
-        env=os.environ | {"RRNN_CACHE_DIR": str(cache)},
         capture_output=True,
         text=True,
         check=False,

@@ -21,8 +21,10 @@ def one_sentence(shown) -> str:
     return shown.stderr
 
 
-def test_a_solved_problem_leaves_four_files_that_agree(rrnn, problem, tmp_path):
-    shown = rrnn("plan", problem(), "--json", "--out", "out", "--seed", "3")
+def test_a_solved_problem_leaves_four_files_that_agree(
+    rrnn, program, problem, tmp_path
+):
+    shown = program("plan", problem(), "--json", "--out", "out", "--seed", "3")
     assert shown.returncode == 0, shown.stderr
     document = only_document(shown)
     assert document["status"] == "solved"
@@ -43,7 +45,9 @@ def test_a_solved_problem_leaves_four_files_that_agree(rrnn, problem, tmp_path):
     assert "ball arithmetic" in exact["certificate"]["method"]
 
 
-def test_the_same_seed_gives_the_same_plan_but_for_times(rrnn, problem):
+def test_the_same_seed_gives_the_same_plan_in_any_process(rrnn, program, problem):
+    """The same document but for its times."""
+
     def without_times(value):
         if isinstance(value, dict):
             items = value.items()
@@ -51,7 +55,7 @@ def test_the_same_seed_gives_the_same_plan_but_for_times(rrnn, problem):
         return value
 
     name = problem()
-    first, second = (rrnn("plan", name, "--json") for _ in range(2))
+    first, second = (run("plan", name, "--json") for run in (rrnn, program))
     one, two = (without_times(only_document(s)) for s in (first, second))
     assert one == two
 
@@ -83,11 +87,11 @@ def test_a_start_in_collision_is_infeasible(rrnn, problem):
     assert only_document(shown)["status"] == "infeasible"
 
 
-def test_no_compiler_is_said_in_one_sentence(rrnn, problem, tmp_path):
+def test_no_compiler_is_said_in_one_sentence(program, problem, tmp_path):
     env = {"CC": "", "PATH": str(tmp_path), "RRNN_CACHE_DIR": str(tmp_path / "c")}
     hidden = tmp_path / "ziglang.py"
     hidden.write_text("raise ImportError")
-    shown = rrnn("plan", problem(), "--json", PYTHONPATH=str(tmp_path), **env)
+    shown = program("plan", problem(), "--json", PYTHONPATH=str(tmp_path), **env)
     assert shown.returncode == 2
     assert only_document(shown)["status"] == "invalid_problem"
     assert "apt install gcc" in one_sentence(shown)
@@ -121,7 +125,7 @@ def test_a_folder_that_cannot_be_made_is_refused_before_planning(rrnn, problem):
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
-def test_a_full_standard_output_is_no_traceback(cache, problem, tmp_path):
+def test_a_full_standard_output_is_no_traceback():
     command = [sys.executable, "-m", "rrnn_opt.cli.main", "robots", "--json"]
     with open("/dev/full", "w") as full:
         shown = subprocess.run(
@@ -132,7 +136,7 @@ def test_a_full_standard_output_is_no_traceback(cache, problem, tmp_path):
     assert "No space left" in shown.stderr
 
 
-def test_ctrl_c_ends_with_130_and_a_document(cache, problem, tmp_path):
+def test_ctrl_c_ends_with_130_and_a_document(problem, tmp_path):
     # the first link always sweeps this ball: there is no path, and no proof of it
     ball = {"name": "post", "type": "sphere", "radius": 0.2, "position": [0, 0.5, 0]}
     goal = {"joints": [2.8, 0.1, 0.1]}
@@ -141,7 +145,6 @@ def test_ctrl_c_ends_with_130_and_a_document(cache, problem, tmp_path):
     process = subprocess.Popen(
         [*command, *words, "--max-explorations", "100000000"],
         cwd=tmp_path,
-        env=os.environ | {"RRNN_CACHE_DIR": str(cache)},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

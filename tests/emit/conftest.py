@@ -1,19 +1,8 @@
-"""Caches for the tests of this room, and seeded random graphs."""
+"""An empty cache for the tests of this room, and seeded random graphs."""
 
 import casadi as ca
 import numpy as np
 import pytest
-
-
-@pytest.fixture(scope="session")
-def shared_cache(tmp_path_factory):
-    """One cache for all tests of this room that only want compiled code."""
-    return tmp_path_factory.mktemp("cache")
-
-
-@pytest.fixture(autouse=True)
-def _use_shared_cache(shared_cache, monkeypatch):
-    monkeypatch.setenv("RRNN_CACHE_DIR", str(shared_cache))
 
 
 @pytest.fixture

@@ -22,14 +22,12 @@ def arrays(numbers, dtype):
 
 
 @pytest.fixture(scope="module")
-def programs(shared_cache, wild_functions, tame_functions):
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("RRNN_CACHE_DIR", str(shared_cache))
-        functions = [*wild_functions, *tame_functions]
-        return {
-            real: emit.compile(functions, name=f"graphs_{real}", real=real)
-            for real in DTYPES
-        }
+def programs(wild_functions, tame_functions):
+    functions = [*wild_functions, *tame_functions]
+    return {
+        real: emit.compile(functions, name=f"graphs_{real}", real=real)
+        for real in DTYPES
+    }
 
 
 @pytest.fixture(scope="module")

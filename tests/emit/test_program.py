@@ -22,10 +22,8 @@ FUNCTION = ca.Function(
 
 
 @pytest.fixture(scope="module")
-def program(shared_cache):
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("RRNN_CACHE_DIR", str(shared_cache))
-        return emit.compile(FUNCTION, name="demo")
+def program():
+    return emit.compile(FUNCTION, name="demo")
 
 
 @pytest.fixture

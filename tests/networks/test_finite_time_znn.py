@@ -19,8 +19,7 @@ def test_the_error_law_is_sign_bi_power(power):
         np.testing.assert_allclose(rate, wanted, rtol=1e-6, atol=1e-6)
 
 
-def test_it_is_at_rest_in_the_time_that_is_promised(tmp_path, monkeypatch):
-    monkeypatch.setenv("RRNN_CACHE_DIR", str(tmp_path))
+def test_it_is_at_rest_in_the_time_that_is_promised():
     rule, form = FiniteTimeZnn(gamma=100.0), equations()
     for seed in range(4):
         given = point(seed)

@@ -18,13 +18,6 @@ from tests.networks.toy import optimum, point, programme
 RULES = [PrimalDual, SimplifiedLviPdnn, LviPdnn, Lvi94, E47, DualNetwork, Hildreth]
 
 
-@pytest.fixture(autouse=True, scope="module")
-def _own_cache(tmp_path_factory):
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("RRNN_CACHE_DIR", str(tmp_path_factory.mktemp("cache")))
-        yield
-
-
 def whitened_rows(form, given, delta):
     white = Whitened.of(form, delta)
     problem = white.form.qp.at(**given)

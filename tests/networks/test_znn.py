@@ -82,9 +82,8 @@ def test_its_parameters_are_the_data_then_their_rates(rule):
 
 
 @pytest.mark.parametrize("rule", FAMILY)
-def test_dependent_rows_divide_nothing_by_zero(rule, tmp_path, monkeypatch):
+def test_dependent_rows_divide_nothing_by_zero(rule):
     """Two equal rows: u is the optimum, the multipliers share the load."""
-    monkeypatch.setenv("RRNN_CACHE_DIR", str(tmp_path))
     form, row = equations(), np.array([1.0, -0.5, 0.2, 0.4])
     given = {"A": np.vstack([row, row]), "b": np.array([0.2, 0.2])}
     one = {"A": np.vstack([row, np.zeros(4)]), "b": np.array([0.2, 0.0])}

@@ -5,13 +5,6 @@ import rrnn_opt as rr
 from rrnn_opt.simulation import Control, Curve, Noise, Task
 
 
-@pytest.fixture(scope="session", autouse=True)
-def _own_cache(tmp_path_factory):
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("RRNN_CACHE_DIR", str(tmp_path_factory.mktemp("cache")))
-        yield
-
-
 @pytest.fixture(scope="session")
 def pa10():
     return rr.Robot.builtin("pa10")

@@ -4,13 +4,6 @@ import pytest
 import rrnn_opt as rr
 
 
-@pytest.fixture(scope="session", autouse=True)
-def _own_cache(tmp_path_factory):
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("RRNN_CACHE_DIR", str(tmp_path_factory.mktemp("cache")))
-        yield
-
-
 @pytest.fixture(scope="session")
 def kin():
     return rr.Kinematics(rr.Robot.builtin("pa10"))
