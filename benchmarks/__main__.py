@@ -10,6 +10,7 @@ from benchmarks.record import Benchmark
 
 NAMES = (
     "kinematics",
+    "batch",
     "control_step",
     "planning",
     "whitening",
