@@ -20,6 +20,7 @@ from rrnn_opt.emit.columns import (
     rows_of,
     wide_of,
 )
+from rrnn_opt.emit.compiler import find_compiler
 from rrnn_opt.emit.host import Built, build, load
 from rrnn_opt.emit.lanes import FLAGS, PORTABLE, WIDTHS, lanes_source
 from rrnn_opt.errors import RrnnError, ShapeError
@@ -152,5 +153,8 @@ def compile_batch(
 
 def _flags(fused: bool) -> tuple[str, ...]:
     """No extension outside the kernels that ask for it, so all x86-64 can run it."""
-    base = ("-march=x86-64",) if platform.machine() in ("x86_64", "AMD64") else ()
-    return (*FLAGS, *base, *(("-ffp-contract=fast",) if fused else ()))
+    contract = ("-ffp-contract=fast",) if fused else ()
+    if platform.machine() not in ("x86_64", "AMD64"):
+        return (*FLAGS, *contract)
+    name = "x86_64" if find_compiler().kind == "zig" else "x86-64"
+    return (*FLAGS, f"-march={name}", *contract)

@@ -12,7 +12,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from rrnn_opt.emit.c99 import LIBRARY, literal, require_identifier
+from rrnn_opt.emit.c99 import literal, require_identifier
+from rrnn_opt.emit.operations import LIBRARY
 from rrnn_opt.emit.prologue import support_text
 from rrnn_opt.errors import UnsupportedOperationError
 from rrnn_opt.symbolic.tape import Instruction, Tape
