@@ -9,9 +9,6 @@ with the limits (and time stretched where they exceed them).
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -20,7 +17,8 @@ from numpy.typing import ArrayLike
 
 from rrnn_opt.errors import RetimeError
 from rrnn_opt.motion.limits import position_excess, require_limits, slow_down
-from rrnn_opt.motion.path import Array, Path
+from rrnn_opt.motion.parametrised import parametrised
+from rrnn_opt.motion.path import Path
 from rrnn_opt.motion.spline import SmoothPath
 from rrnn_opt.motion.stop_and_go import SHORTEST, stop_and_go
 from rrnn_opt.motion.trajectory import Trajectory
@@ -90,7 +88,7 @@ def _timed(
     path: Path, limits: Limits, spacing: float, settings: RetimeSettings
 ) -> Trajectory:
     """Best of the grids tried: finer ones only where a stretch is called for."""
-    scale = path.length
+    scale = 2.0 ** np.ceil(np.log2(path.length))  # a power of two: scales recur
     curve = SmoothPath(path, spacing=spacing, scale=scale)
     clock = float(np.sqrt(scale / np.min(limits.acceleration)))
     velocity = limits.velocity * clock / scale
@@ -98,8 +96,8 @@ def _timed(
     best: Trajectory | None = None
     for k in range(settings.refinements + 1):
         grid = curve.grid(settings.rows * 2**k)
-        t, s, speed = _parametrised(curve, grid, velocity, acceleration)
-        q, qd = curve(s) * scale, curve(s, 1) * speed[:, None] * scale / clock
+        t, speed = parametrised(curve, grid, velocity, acceleration)
+        q, qd = curve(grid) * scale, curve(grid, 1) * speed[:, None] * scale / clock
         q[0], q[-1], qd[0], qd[-1] = path.start, path.goal, 0.0, 0.0
         raw = Trajectory.from_rows(t * clock, q, qd)
         found = slow_down(raw, limits)
@@ -109,55 +107,3 @@ def _timed(
             break
     assert best is not None  # the loop runs once at least
     return best
-
-
-def _parametrised(
-    curve: SmoothPath, grid: Array, velocity: Array, acceleration: Array
-) -> tuple[Array, Array, Array]:
-    """Times, path positions and path speeds at the retimer's breakpoints.
-
-    Between breakpoints the path acceleration is constant, so a step takes
-    2 ds / (v_i + v_{i+1}).
-
-    Raises:
-        RetimeError: the retimer found nothing.
-    """
-    with _silence():
-        from toppra import algorithm, constraint
-
-        bounds = [
-            constraint.JointVelocityConstraint(np.stack([-velocity, velocity], 1)),
-            constraint.JointAccelerationConstraint(
-                np.stack([-acceleration, acceleration], 1),
-                discretization_scheme=constraint.DiscretizationType.Interpolation,
-            ),
-        ]
-        try:
-            solver = algorithm.TOPPRA(
-                bounds, curve, gridpoints=grid, solver_wrapper="seidel"
-            )
-            solver.compute_parameterization(0.0, 0.0)
-        except (ValueError, ArithmeticError, AssertionError) as error:
-            raise RetimeError(f"toppra failed: {error}", str(error)) from error
-    data = solver.problem_data
-    speed = data.sd_vec
-    if data.return_code != algorithm.ParameterizationReturnCode.Ok or speed is None:
-        reason = str(data.return_code)
-        raise RetimeError(f"toppra found no timing: {reason}", reason)
-    pace = speed[:-1] + speed[1:]
-    if not np.all(np.isfinite(pace)) or np.any(pace <= 0):
-        raise RetimeError("toppra stops before the end of the path", "zero speed")
-    t = np.concatenate([[0.0], np.cumsum(2 * np.diff(grid) / pace)])
-    return t, grid, np.asarray(speed, dtype=np.float64)
-
-
-@contextmanager
-def _silence() -> Iterator[None]:
-    """Keep toppra's log lines off other people's consoles."""
-    logger = logging.getLogger("toppra")
-    before = logger.level
-    logger.setLevel(logging.CRITICAL + 1)
-    try:
-        yield
-    finally:
-        logger.setLevel(before)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -65,7 +66,7 @@ class Trajectory:
         """Time of the last row, s."""
         return float(self.t[-1])
 
-    @property
+    @cached_property
     def pieces(self) -> hermite.Pieces:
         """The cubics between the rows."""
         return hermite.pieces(self.t, self.q, self.qd)

@@ -114,7 +114,8 @@ def _range(values: list[Array]) -> tuple[Array, Array]:
 
 def _inside(root: Array, h: Array) -> Array:
     """A root cut to [0, h]: evaluating there is always a true value."""
-    return np.clip(np.nan_to_num(root, nan=0.0), 0.0, h[:, None])
+    cut: Array = np.fmin(np.fmax(root, 0.0), h[:, None])  # NaN becomes 0
+    return cut
 
 
 def position_range(p: Pieces) -> tuple[Array, Array]:
