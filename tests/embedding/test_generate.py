@@ -45,9 +45,11 @@ def host_test(cc, folder):
     return cc(sources, "test_host", includes=includes)
 
 
-@pytest.mark.parametrize("real", ["double", "float"])
-@pytest.mark.parametrize("name", ["box", "rows"])
-@pytest.mark.parametrize("steps", [1, 5])
+@pytest.mark.parametrize(
+    ("name", "real", "steps"),
+    [("box", "double", 1), ("box", "float", 5), ("rows", "double", 5),
+     ("rows", "float", 1)],
+)  # fmt: skip
 def test_steps_are_those_of_the_dynamics(networks, shared, tmp_path, name, real, steps):
     dynamics = networks[name]
     package = generate(dynamics, prefix="arm", real=real, steps=steps)
@@ -120,8 +122,7 @@ def test_refusals_leave_everything_as_it_was(networks, shared, tmp_path, real):
     assert step((0.1, 0.2, 0.3), rd=(largest,) * 3) == 5
 
 
-@pytest.mark.parametrize("real", ["double", "float"])
-@pytest.mark.parametrize("step_size", [None, 0.002])
+@pytest.mark.parametrize(("real", "step_size"), [("double", None), ("float", 0.002)])
 def test_its_own_test_passes(networks, cc, tmp_path, real, step_size):
     package = generate(networks["rows"], real=real, steps=2, step_size=step_size)
     folder = package.write(tmp_path)

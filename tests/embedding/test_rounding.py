@@ -29,7 +29,9 @@ def own_test(folder, out, *flags):
     return subprocess.run([out], capture_output=True, text=True, check=False)
 
 
-@pytest.mark.parametrize("real", ["float", "double"])
+@pytest.mark.parametrize(
+    "real", ["float", pytest.param("double", marks=pytest.mark.slow)]
+)
 def test_fused_and_library_builds_are_within_what_is_stated(networks, tmp_path, real):
     flags = fuses()
     if flags is None:

@@ -1,6 +1,7 @@
 """What is in a network's graph, against what the network declares."""
 
 from dataclasses import dataclass, replace
+from functools import cache
 
 import casadi as ca
 import numpy as np
@@ -20,6 +21,7 @@ from tests.catalogue import Scheme, accepted, form, label, rules, schemes
 from tests.networks.toy import WEIGHT, G, H, law, point, programme
 
 
+@cache
 def shapes(robot):
     """The schemes that differ in size, bounds or Hessian, which is all that counts."""
     found = {}

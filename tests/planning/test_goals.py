@@ -1,5 +1,7 @@
 """Regions and free axes: the drive's errors are the checker's, and plans reach them."""
 
+from functools import cache
+
 import casadi as ca
 import numpy as np
 import pytest
@@ -16,11 +18,18 @@ PLACE = [0.45, 0.1, 0.6]
 TURNED = [0.5, -0.5, 0.5, 0.5]
 
 
-def drive_errors(robot, goal, q, length=0.1):
-    """(way, chord) of the emitted drive at q, and its attraction w."""
+@cache
+def functions(robot):
+    """(kinematics at q, the emitted drives) of a robot."""
     kin = rr.Kinematics(robot)
     pose = kin.pose()
-    at = ca.Function("at", [kin.q], [kin.axes(), kin.origins(), pose[:3, 3], pose])
+    parts = [kin.axes(), kin.origins(), pose[:3, 3], pose]
+    return ca.Function("at", [kin.q], parts), drive_functions(robot)
+
+
+def drive_errors(robot, goal, q, length=0.1):
+    """(way, chord) of the emitted drive at q, and its attraction w."""
+    at, drives = functions(robot)
     axes, origins, tip, frame = (np.array(x) for x in at(q))
     target = tip_target(goal)
     wanted = np.reshape(target.rotation, (3, 3), order="F")
@@ -35,7 +44,7 @@ def drive_errors(robot, goal, q, length=0.1):
         "free": np.array(target.free),
         "length": length,
     }
-    drive = drive_functions(robot)[2 if target.has_rotation else 1]
+    drive = drives[2 if target.has_rotation else 1]
     out = drive(**{name: named[name] for name in drive.name_in()})
     return np.array(out["error"]).ravel(), np.array(out["w"]).ravel()
 
