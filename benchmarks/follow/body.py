@@ -118,20 +118,17 @@ class Follower:
         values = q[:, self.source] * self.multiplier + self.offset
         rates = qd[:, self.source] * self.multiplier
         count = len(self.robot["types"]) + 1
-        places, turns = np.zeros((len(q), count, 3)), np.zeros((len(q), count, 3, 3))
-        turns[:, 0] = _STRAIGHT
-        twists = np.zeros((len(q), count, 6))
+        frames, twists = np.zeros((len(q), count, 4, 4)), np.zeros((len(q), count, 6))
+        frames[:, 0] = np.eye(4)
         poses, moves = self.data.oMi, self.data.v
         for n in range(len(q)):
             pin.forwardKinematics(self.model, self.data, values[n], rates[n])
             for k in self.used:
-                pose = poses[k]
-                turns[n, k], places[n, k] = pose.rotation, pose.translation
-                twists[n, k] = moves[k].vector
+                frames[n, k], twists[n, k] = poses[k].homogeneous, moves[k].vector
         on = self.joints + 1
         local = twists[:, on, :3] + np.cross(twists[:, on, 3:], self.centers)
-        turned = turns[:, on]
-        where = (turned @ self.centers[:, :, None])[..., 0] + places[:, on]
+        turned, places = frames[:, on, :3, :3], frames[:, on, :3, 3]
+        where = (turned @ self.centers[:, :, None])[..., 0] + places
         return where, (turned @ local[..., None])[..., 0]
 
     def gap(self, sphere: int, solid: int, place: np.ndarray) -> tuple[float, Any]:

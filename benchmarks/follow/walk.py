@@ -141,9 +141,12 @@ class _Walk:
         place, rate = where[at, one], speed[at, one]
         away, gaps = np.zeros((len(pair), 3)), np.zeros(len(pair))
         single = pair < self.alone
-        for k in np.flatnonzero(single).tolist():
-            gaps[k], nearest = follower.gap(one[k], other[k], place[k])
-            away[k] = place[k] - nearest
+        alone = np.flatnonzero(single)
+        if alone.size:
+            asked = one[alone].tolist(), other[alone].tolist(), list(place[alone])
+            found = [follower.gap(*each) for each in zip(*asked, strict=True)]
+            gaps[alone] = [gap for gap, _ in found]
+            away[alone] = place[alone] - np.array([point for _, point in found])
         two = np.flatnonzero(~single)
         i, j, two_at = one[two], other[two], at[two]
         away[two] = place[two] - where[two_at, j]
