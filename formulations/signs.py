@@ -52,6 +52,9 @@ def sign_jacobian(contacts: Contacts) -> ca.SX:
 
     ``J_N qd <= 0`` says that no component of the sphere's velocity goes
     against the sign of the outward normal's.
+
+    Raises:
+        RrnnError: there is no contact.
     """
     if not contacts.jacobians:
         raise RrnnError("sign rows: give at least one contact")

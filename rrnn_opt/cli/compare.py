@@ -42,7 +42,11 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, out: Output) -> int:
-    """0 when every case was measured; 1 when one crashed or took too long."""
+    """0 when every case was measured; 1 when one crashed or took too long.
+
+    Raises:
+        UsageError: no study is named.
+    """
     from rrnn_opt.study import pin_threads
 
     pin_threads()
@@ -60,7 +64,11 @@ def run(args: argparse.Namespace, out: Output) -> int:
 
 
 def chosen_study(args: argparse.Namespace) -> tuple[Any, tuple[str, ...]]:
-    """The comparison that the command line names, and why sets are left out."""
+    """The comparison that the command line names, and why sets are left out.
+
+    Raises:
+        UsageError: no set of the study can be made here.
+    """
     from rrnn_opt.study import comparison
 
     words = [word for word in (args.solvers or "").split(",") if word]

@@ -75,7 +75,11 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, out: Output) -> int:
-    """Write the package and name its folder."""
+    """Write the package and name its folder.
+
+    Raises:
+        UsageError: ``--task``, and the scheme has one task only.
+    """
     target = folder(args.out)
     scheme, robot = named.scheme(args.formulation), named.robot(args.robot)
     from rrnn_opt.embedding import generate

@@ -23,6 +23,9 @@ def noticed() -> Iterator[Interrupt]:
 
     An import or a callback from C may swallow the exception or turn it into
     another one; the exit status is still that of an interrupted run.
+
+    Raises:
+        KeyboardInterrupt: at Ctrl-C.
     """
     interrupt = Interrupt()
 
@@ -36,7 +39,11 @@ def noticed() -> Iterator[Interrupt]:
 
 @contextlib.contextmanager
 def held() -> Iterator[None]:
-    """Let a first Ctrl-C wait until the block is done; a second one does not."""
+    """Let a first Ctrl-C wait until the block is done; a second one does not.
+
+    Raises:
+        KeyboardInterrupt: at the second Ctrl-C.
+    """
     waiting: list[int] = []
 
     def wait(number: int, frame: FrameType | None) -> None:

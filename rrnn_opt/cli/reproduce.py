@@ -33,7 +33,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, out: Output) -> int:
-    """0 when every part was run; 1 when a case failed."""
+    """0 when every part was run; 1 when a case failed.
+
+    Raises:
+        UsageError: a part is unknown.
+    """
     from rrnn_opt.study import pin_threads
 
     pin_threads()

@@ -46,7 +46,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, out: Output) -> int:
-    """Fit, prove, write; 1 when something is not shown to be covered."""
+    """Fit, prove, write; 1 when something is not shown to be covered.
+
+    Raises:
+        UsageError: ``--out`` is a folder.
+    """
     from rrnn_opt.report import write_text
     from rrnn_opt.robot.spheres import fit_spheres
 

@@ -72,7 +72,12 @@ class Slot:
         return address_of(array if self.columns == 1 else array.T)
 
     def result(self, array: Array) -> int:
-        """As :meth:`address`, for memory that is written."""
+        """As :meth:`address`, for memory that is written.
+
+        Raises:
+            ShapeError: wrong shape.
+            LayoutError: wrong type or order, or not writeable.
+        """
         address = self.address(array)
         if not array.flags.writeable:
             raise LayoutError(self.name, array.shape, "pass a writeable array")
@@ -92,6 +97,10 @@ class Slot:
         """Address and row stride [elements] of ``count`` values in a row.
 
         An array that has the shape of one value stands for all rows (stride 0).
+
+        Raises:
+            ShapeError: neither the shape of one value nor that of all rows.
+            LayoutError: wrong type or memory order.
         """
         if np.shape(array) in self.shapes:
             return self.address(array), 0

@@ -82,6 +82,9 @@ class Batch:
         Arguments and errors are those of a call.  Arrays that are read where
         they are may change between evaluations; those that had to be copied
         keep the numbers of now.
+
+        Raises:
+            ShapeError: wrong number or shape of arrays.
         """
         given = [np.asarray(a, np.float64) for a in arrays]
         n = columns_of(self.name, self.inputs, given)

@@ -75,7 +75,11 @@ def c_function(
 
 
 def require_identifier(name: str) -> str:
-    """Return ``name`` if C accepts it as an identifier."""
+    """Return ``name`` if C accepts it as an identifier.
+
+    Raises:
+        RrnnError: C or the emitted text uses it otherwise.
+    """
     if not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII) or name in _WORDS:
         raise RrnnError(f"'{name}' is not a usable C identifier")
     return name

@@ -75,6 +75,7 @@ class Program:
 
         Raises:
             ShapeError: wrong number, shape, type or memory order of arrays.
+            RrnnError: there is no such function.
         """
         entry = self._entry(name)
         sources = _addresses(name, entry, arrays)
@@ -101,6 +102,7 @@ class Program:
 
         Raises:
             ShapeError: wrong number, shape, type or memory order of arrays.
+            RrnnError: there is no such function.
         """
         entry = self._entry(name)
         one, kept = entry.one, (arrays, tuple(out))
@@ -126,6 +128,7 @@ class Program:
 
         Raises:
             ShapeError: wrong number, shape, type or memory order of arrays.
+            RrnnError: there is no such function.
         """
         entry = self._entry(name)
         _require_count(f"{name}: arrays", entry.inputs, arrays)
@@ -183,6 +186,7 @@ def compile(
     Raises:
         CompilerError: no compiler, or it failed.
         UnsupportedOperationError: a graph holds an operation without C text.
+        RrnnError: no function, two of one name, or a name that C does not accept.
     """
     several = [functions] if isinstance(functions, ca.Function) else list(functions)
     if not several:

@@ -111,14 +111,22 @@ def support_text(name: str) -> str:
 
 
 def require_real(real: str) -> str:
-    """Return ``real`` if it names a C type that the emitter knows."""
+    """Return ``real`` if it names a C type that the emitter knows.
+
+    Raises:
+        RrnnError: it names none.
+    """
     if real not in SUFFIX:
         raise RrnnError(f"real must be 'double' or 'float', got '{real}'")
     return real
 
 
 def require_trig(trig: str) -> str:
-    """Return ``trig`` if it names a sine and cosine that the emitter knows."""
+    """Return ``trig`` if it names a sine and cosine that the emitter knows.
+
+    Raises:
+        RrnnError: it names none.
+    """
     if trig not in ("own", "libm"):
         raise RrnnError(f"sine and cosine must be 'own' or 'libm', got '{trig}'")
     return trig

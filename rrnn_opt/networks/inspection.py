@@ -37,6 +37,9 @@ def graph_operations(dynamics: Dynamics) -> frozenset[str]:
 
     Args:
         dynamics: any.
+
+    Raises:
+        RrnnError: it is neither a flow nor a map.
     """
     parts = [_law(dynamics), dynamics.output, *dynamics.multipliers.values()]
     symbols = (dynamics.state, *dynamics.parameters)

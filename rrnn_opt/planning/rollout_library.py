@@ -76,6 +76,9 @@ class RolloutSearch(Search):
         settings: their numbers.
         request: start, goals, limits and obstacles.
         keep: arrays that ``request`` points into; kept alive here.
+
+    Raises:
+        RrnnError: out of memory.
     """
 
     def __init__(
@@ -107,7 +110,11 @@ class RolloutSearch(Search):
         return function(self._rollouts, *args)
 
     def run(self, budget: int, slice_s: float) -> str:
-        """Explore on; "paused" after ``slice_s`` seconds."""
+        """Explore on; "paused" after ``slice_s`` seconds.
+
+        Raises:
+            RrnnError: out of memory.
+        """
         types = (ct.c_int64, ct.c_double)
         code = int(self._rolled("rollouts_run", ct.c_int32, types, budget, slice_s))
         if code not in STATUS:
@@ -146,7 +153,12 @@ class RolloutSearch(Search):
         return (postures[:most], parents[:most]), none
 
     def way(self, node: int) -> Array:
-        """Waypoints from the start to a node of T_s, (N, nv)."""
+        """Waypoints from the start to a node of T_s, (N, nv).
+
+        Raises:
+            IndexError: T_s has no such node.
+            RrnnError: out of memory.
+        """
         total = int(self._rolled("rollouts_count", ct.c_int32, ()))
         if not 0 <= node < total:
             raise IndexError(f"T_s has nodes 0 to {total - 1}, not {node}")

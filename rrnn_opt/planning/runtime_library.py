@@ -71,6 +71,9 @@ class Search:
         settings: its numbers.
         request: start, goals, limits and obstacles.
         keep: arrays that ``request`` points into; kept alive here.
+
+    Raises:
+        RrnnError: out of memory.
     """
 
     def __init__(
@@ -96,7 +99,11 @@ class Search:
         )
 
     def run(self, budget: int, slice_s: float) -> str:
-        """Search on; "paused" after ``slice_s`` seconds."""
+        """Search on; "paused" after ``slice_s`` seconds.
+
+        Raises:
+            RrnnError: out of memory.
+        """
         types = (ct.c_int64, ct.c_double)
         code = int(self._call("run", ct.c_int32, types, budget, slice_s))
         if code not in STATUS:
@@ -169,6 +176,9 @@ class Search:
 
         Returns:
             Waypoints, (M, nv), same ends, never longer.
+
+        Raises:
+            RrnnError: out of memory.
         """
         path = np.ascontiguousarray(path, dtype=np.float64)
         types = (ct.c_void_p, ct.c_int32, ct.c_int32)

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from rrnn_opt.errors import ProblemError
 from rrnn_opt.simulation.task import PLANES, Array, Curve
 
 
@@ -28,6 +29,9 @@ def reference(curve: Curve, tip: Array, t: Array) -> tuple[Array, Array, Array]:
 
     Returns:
         rd, (k, 3), m; rd_dot, (k, 3), m/s; rd_ddot, (k, 3), m/s2.
+
+    Raises:
+        ProblemError: a line or point has neither offset nor position.
     """
     phi, rate, second = _phase(curve, t)
     if curve.kind == "point":
@@ -78,5 +82,5 @@ def _end(curve: Curve, tip: Array) -> Array:
     if curve.position is not None:
         return curve.position
     if curve.offset is None:
-        raise ValueError("a line or point needs an offset or a position")
+        raise ProblemError("reference", "a line or point needs 'offset' or 'position'")
     return tip + curve.offset

@@ -14,6 +14,7 @@ import numpy as np
 from rrnn_opt.emit import build, load, prologue
 from rrnn_opt.emit.active_set import FIELDS, Factor, active_set_source
 from rrnn_opt.solving.backends import Told, solution
+from rrnn_opt.solving.dense_session import DenseSession, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
 
@@ -92,7 +93,7 @@ def _compiled(
 
 
 @dataclass
-class ActiveSet:
+class ActiveSet(DenseSession):
     """The controller's exact fallback as a solver.
 
     No active set is kept from one problem to the next.  The C is compiled
@@ -107,7 +108,6 @@ class ActiveSet:
     mode: str = "cold"
     tolerance: float = 1e-6
     name: str = field(default="active_set", init=False)
-    _problem: Dense | None = field(default=None, init=False, repr=False)
     _factor: Factor | None = field(default=None, init=False, repr=False)
 
     def setup(self, instance: Instance) -> None:
@@ -124,10 +124,12 @@ class ActiveSet:
             _compiled((len(qp.q), len(qp.b), len(qp.h)), Factor.of(qp.P).proximal)
 
     def solve(self) -> Solution:
-        """Factor where the mode wants it, solve and judge."""
-        qp = self._problem
-        if qp is None:
-            raise ValueError("setup comes before solve")
+        """Factor where the mode wants it, solve and judge.
+
+        Raises:
+            RrnnError: ``setup`` was not called.
+        """
+        qp = require_setup(self._problem)
         start = time.perf_counter()
         if self._factor is None or self.mode == "cold":
             self._factor = Factor.of(qp.P)

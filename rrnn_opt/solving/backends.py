@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from rrnn_opt.solving.dense_session import require_setup
 from rrnn_opt.solving.infeasible import find_farkas
 from rrnn_opt.solving.parts import Array, Dense, Duals, handed
 from rrnn_opt.solving.protocol import Instance, Solution
@@ -124,24 +125,27 @@ class Qpsolvers:
         self._instance = instance
 
     def solve(self) -> Solution:
-        """Call the solver, judge its answer; an exception becomes a status."""
+        """Call the solver, judge its answer; an exception becomes a status.
+
+        Raises:
+            RrnnError: ``setup`` was not called.
+        """
         import qpsolvers
 
-        if self._instance is None:
-            raise ValueError("setup comes before solve")
+        instance = require_setup(self._instance)
         if self.name not in qpsolvers.available_solvers:
             message = f"{self.name} is not installed"
             return Solution(
                 None, None, Status.NOT_AVAILABLE, NOT_JUDGED, 0.0, message=message
             )
         settings = TIGHT.get(self.name, {}) if self.settings is None else self.settings
-        dense = Dense.of(self._instance.problem)
+        dense = Dense.of(instance.problem)
         start = time.perf_counter()
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 answer = qpsolvers.solve_problem(
-                    self._instance.problem,
+                    instance.problem,
                     solver=self.name,
                     initvals=self._last,
                     **settings,

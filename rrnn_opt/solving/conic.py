@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.solving.backends import Told, solution
+from rrnn_opt.solving.dense_session import DenseSession, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
 
@@ -30,7 +31,7 @@ PLUGINS: Mapping[str, Mapping[str, Any]] = {
 
 
 @dataclass
-class CasadiConic:
+class CasadiConic(DenseSession):
     """``casadi.conic`` with one of its plugins.
 
     Attributes:
@@ -44,7 +45,6 @@ class CasadiConic:
     mode: str = "stream"
     tolerance: float = 1e-6
     _call: Any = field(default=None, init=False, repr=False)
-    _problem: Dense | None = field(default=None, init=False, repr=False)
     _start: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
 
     @property
@@ -57,15 +57,13 @@ class CasadiConic:
         self._problem, self._start = Dense.of(instance.problem), {}
         self._call = _made(self.plugin, self._problem)
 
-    def update(self, instance: Instance) -> None:
-        """Take the next instance, of the same shapes."""
-        self._problem = Dense.of(instance.problem)
-
     def solve(self) -> Solution:
-        """Call the plugin, judge its answer; an exception becomes a status."""
-        qp = self._problem
-        if qp is None:
-            raise ValueError("setup comes before solve")
+        """Call the plugin, judge its answer; an exception becomes a status.
+
+        Raises:
+            RrnnError: ``setup`` was not called.
+        """
+        qp = require_setup(self._problem)
         start = time.perf_counter()
         if self.mode == "cold":
             self._call, self._start = _made(self.plugin, qp), {}

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.solving.backends import TIGHT, Told, solution
+from rrnn_opt.solving.dense_session import DenseSession, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
 
 
 @dataclass
-class PiqpSession:
+class PiqpSession(DenseSession):
     """PIQP, updated in place; an interior-point method starts anew each time.
 
     Attributes:
@@ -28,7 +29,6 @@ class PiqpSession:
     mode: str = field(default="stream", init=False)
     name: str = field(default="piqp", init=False)
     _solver: Any = field(default=None, init=False, repr=False)
-    _problem: Dense | None = field(default=None, init=False, repr=False)
 
     def setup(self, instance: Instance) -> None:
         """Give PIQP the problem."""
@@ -40,17 +40,15 @@ class PiqpSession:
             setattr(self._solver.settings, name, value)
         self._solver.setup(*_piqp_form(self._problem))
 
-    def update(self, instance: Instance) -> None:
-        """Take the next numbers; they are handed over in ``solve``."""
-        self._problem = Dense.of(instance.problem)
-
     def solve(self) -> Solution:
-        """Hand over the numbers, solve, judge."""
+        """Hand over the numbers, solve, judge.
+
+        Raises:
+            RrnnError: ``setup`` was not called.
+        """
         import piqp
 
-        qp = self._problem
-        if qp is None:
-            raise ValueError("setup comes before solve")
+        qp = require_setup(self._problem)
         start = time.perf_counter()
         self._solver.update(*_piqp_form(qp))
         began = time.perf_counter()
@@ -74,7 +72,7 @@ class PiqpSession:
 
 
 @dataclass
-class ProxqpSession:
+class ProxqpSession(DenseSession):
     """ProxQP, updated in place; it starts from its last answer.
 
     Attributes:
@@ -87,7 +85,6 @@ class ProxqpSession:
     mode: str = field(default="stream", init=False)
     name: str = field(default="proxqp", init=False)
     _solver: Any = field(default=None, init=False, repr=False)
-    _problem: Dense | None = field(default=None, init=False, repr=False)
 
     def setup(self, instance: Instance) -> None:
         """Give ProxQP the problem."""
@@ -101,17 +98,15 @@ class ProxqpSession:
         self._solver.settings.initial_guess = last
         self._solver.init(*_proxqp_form(qp))
 
-    def update(self, instance: Instance) -> None:
-        """Take the next numbers; they are handed over in ``solve``."""
-        self._problem = Dense.of(instance.problem)
-
     def solve(self) -> Solution:
-        """Hand over the numbers, solve, judge."""
+        """Hand over the numbers, solve, judge.
+
+        Raises:
+            RrnnError: ``setup`` was not called.
+        """
         from proxsuite import proxqp
 
-        qp = self._problem
-        if qp is None:
-            raise ValueError("setup comes before solve")
+        qp = require_setup(self._problem)
         start = time.perf_counter()
         self._solver.update(*_proxqp_form(qp))
         began = time.perf_counter()

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.solving.backends import TIGHT, Told, solution
+from rrnn_opt.solving.dense_session import DenseSession, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
 
@@ -36,7 +37,7 @@ def _split(qp: Dense, multipliers: Array) -> Duals:
 
 
 @dataclass
-class OsqpSession:
+class OsqpSession(DenseSession):
     """OSQP, updated in place; it starts from its last answer when warm.
 
     Attributes:
@@ -50,7 +51,6 @@ class OsqpSession:
     tolerance: float = 1e-6
     name: str = field(default="osqp", init=False)
     _solver: Any = field(default=None, init=False, repr=False)
-    _problem: Dense | None = field(default=None, init=False, repr=False)
 
     def setup(self, instance: Instance) -> None:
         """Give OSQP the problem, every entry of the matrices kept."""
@@ -71,15 +71,13 @@ class OsqpSession:
         )
         self._problem = qp
 
-    def update(self, instance: Instance) -> None:
-        """Overwrite the numbers; the set-up's time is spent in ``solve``."""
-        self._problem = Dense.of(instance.problem)
-
     def solve(self) -> Solution:
-        """Hand over the numbers, solve, judge."""
-        qp = self._problem
-        if qp is None:
-            raise ValueError("setup comes before solve")
+        """Hand over the numbers, solve, judge.
+
+        Raises:
+            RrnnError: ``setup`` was not called.
+        """
+        qp = require_setup(self._problem)
         start = time.perf_counter()
         lower, upper = _sides(qp)
         self._solver.update(
@@ -102,7 +100,7 @@ class OsqpSession:
 
 
 @dataclass
-class DaqpSession:
+class DaqpSession(DenseSession):
     """DAQP, updated in place: a dense active-set method, exact in few steps.
 
     Attributes:
@@ -116,7 +114,6 @@ class DaqpSession:
     tolerance: float = 1e-6
     name: str = field(default="daqp", init=False)
     _model: Any = field(default=None, init=False, repr=False)
-    _problem: Dense | None = field(default=None, init=False, repr=False)
     _fresh: bool = field(default=False, init=False, repr=False)
 
     def setup(self, instance: Instance) -> None:
@@ -127,14 +124,16 @@ class DaqpSession:
 
     def update(self, instance: Instance) -> None:
         """Take the next numbers; they are handed over in ``solve``."""
-        self._problem = Dense.of(instance.problem)
+        super().update(instance)
         self._fresh = False
 
     def solve(self) -> Solution:
-        """Hand over the numbers, solve, judge."""
-        qp = self._problem
-        if qp is None:
-            raise ValueError("setup comes before solve")
+        """Hand over the numbers, solve, judge.
+
+        Raises:
+            RrnnError: ``setup`` was not called.
+        """
+        qp = require_setup(self._problem)
         start = time.perf_counter()
         if self.mode == "cold":
             self._set_up(qp)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from rrnn_opt.dynamics import Dynamics
+from rrnn_opt.solving.dense_session import require_setup
 from rrnn_opt.solving.network import restable
 from rrnn_opt.solving.parts import Array, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
@@ -39,12 +40,15 @@ class SettledNetwork:
         self._instance = instance
 
     def solve(self) -> Solution:
-        """Settle; see ``settle``."""
-        if self._instance is None:
-            raise ValueError("setup comes before solve")
+        """Settle; see ``settle``.
+
+        Raises:
+            RrnnError: ``setup`` was not called.
+        """
+        instance = require_setup(self._instance)
         x, info = settle_at(
             self.dynamics,
-            self._instance.parameters,
+            instance.parameters,
             tolerance=self.tolerance,
             start=self._state,
         )

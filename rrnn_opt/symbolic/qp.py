@@ -84,6 +84,7 @@ class QP:
         Raises:
             NotAQpError: some part is not what it must be, the Hessian depends
                 on a parameter, or it is not positive semidefinite.
+            NotFiniteError: the Hessian holds NaN or an infinite number.
         """
         parts = (
             ("cost", cost, 2),

@@ -181,7 +181,7 @@ def test_a_linear_cost_is_solved_by_proximal_rounds():
 def test_it_is_a_solver_like_the_others():
     rng = np.random.default_rng(4)
     solver, problem = ActiveSet(), random_problem(rng, 7, 3, 2)
-    with pytest.raises(ValueError, match="setup"):
+    with pytest.raises(RrnnError, match="setup"):
         solver.solve()
     solver.setup(Instance(problem))
     assert solver.solve().status is Status.SOLVED

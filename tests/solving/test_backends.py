@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import qpsolvers
 
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.solving.backends import TIGHT, Qpsolvers
 from rrnn_opt.solving.parts import OSQP_JUNK
 from rrnn_opt.solving.protocol import Instance
@@ -107,7 +108,7 @@ def test_osqp_really_returns_junk_and_it_is_caught():
 
 @pytest.mark.parametrize("solver", [Qpsolvers("daqp"), OsqpSession(), DaqpSession()])
 def test_setup_comes_first(solver):
-    with pytest.raises(ValueError, match="setup"):
+    with pytest.raises(RrnnError, match="setup"):
         solver.solve()
 
 

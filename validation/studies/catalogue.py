@@ -38,7 +38,11 @@ class Scheme:
     contacts: bool = False
 
     def build(self, kin: Kinematics) -> Formulation:
-        """The formulation for a robot, with as many contacts as it admits."""
+        """The formulation for a robot, with as many contacts as it admits.
+
+        Raises:
+            RrnnError: no sphere of the robot can be in contact.
+        """
         make: Callable[..., Formulation] = getattr(formulations, self.function)
         if not self.contacts:
             return make(kin, **self.options)

@@ -61,6 +61,9 @@ class GroundTruth:
         schemes: names of schemes; all by default.
         networks: names of networks, with "/whiten" for whitened equality rows;
             all as they come by default.
+
+    Raises:
+        RrnnError: a scheme or network is unknown.
     """
 
     robots: tuple[str, ...] = ROBOTS

@@ -106,7 +106,11 @@ class FromAnywhere:
     seed: int
 
     def __call__(self, form: Formulation) -> NeuralDynamics:
-        """The network of ``form``."""
+        """The network of ``form``.
+
+        Raises:
+            RrnnError: the network is a map.
+        """
         made = self.network(form)
         if not isinstance(made, NeuralDynamics):
             raise RrnnError(f"{made.name}: a map is not begun in a random state")

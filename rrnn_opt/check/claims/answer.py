@@ -31,6 +31,9 @@ class Answer:
         reason: half a sentence.
         trust: one of :data:`TRUSTS`.
         assumptions: what the proof needs beyond the claim, "D1: ..".
+
+    Raises:
+        ValueError: there is no such status or trust.
     """
 
     status: Literal["PROVED", "REFUTED"]

@@ -90,7 +90,11 @@ class CheckedCertificate:
             )
 
     def __reduce__(self) -> NoReturn:
-        """Copies could be altered: pass the document on and check it again."""
+        """Copies could be altered: pass the document on and check it again.
+
+        Raises:
+            RrnnError: always.
+        """
         raise RrnnError("a checked certificate is not copied; send its document")
 
     @property

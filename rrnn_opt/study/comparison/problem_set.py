@@ -27,6 +27,9 @@ class ProblemSet:
             something; then all have one shape.
         about: one sentence.
         scheme: makes the formulation that they come from; None where there is none.
+
+    Raises:
+        RrnnError: no problem, or not one truth for each.
     """
 
     name: str

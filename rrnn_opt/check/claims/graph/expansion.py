@@ -71,7 +71,11 @@ class Expansion:
         self.atoms: list[tuple[str, tuple[Polynomial, ...], Polynomial]] = []
 
     def value(self, step: Step) -> Polynomial:
-        """The polynomial of one operation."""
+        """The polynomial of one operation.
+
+        Raises:
+            UndecidedError: the operation is not known here.
+        """
         if _ARITY.get(step.op, -1) != len(step.args):
             raise UndecidedError(f"operation '{step.op}' is not known to this method")
         args = [self.values[a] for a in step.args]
@@ -96,13 +100,21 @@ class Expansion:
         return self.inputs[slot]
 
     def constant(self, value: float) -> Polynomial:
-        """The rational number that a double is."""
+        """The rational number that a double is.
+
+        Raises:
+            UndecidedError: it is not finite.
+        """
         if not math.isfinite(value):
             raise UndecidedError(f"the constant {value} is not a real number")
         return self.ring.constant(fmpq(*value.as_integer_ratio()))
 
     def multiply(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        """The product in normal form, paid for from the budget."""
+        """The product in normal form, paid for from the budget.
+
+        Raises:
+            UndecidedError: the budget is spent.
+        """
         self.budget -= len(a) * len(b)
         if self.budget < 0:
             raise UndecidedError("the expansion is too large (its budget is spent)")
@@ -144,7 +156,11 @@ class Expansion:
         return atom
 
     def quotient(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        """``a / b``: exact by a constant, else a times an atom."""
+        """``a / b``: exact by a constant, else a times an atom.
+
+        Raises:
+            UndecidedError: b is 0.
+        """
         if not b.is_constant():
             return self.multiply(a, self.atom("inv", [b]))
         if b == 0:

@@ -90,7 +90,11 @@ def leaves(graph: ClaimGraph, codes: NDArray[np.uint8]) -> Leaves:
 
 
 def halves(low: Array, high: Array, axes: NDArray[np.intp]) -> tuple[Array, Array]:
-    """Both halves of every box; any number between the ends may be the cut."""
+    """Both halves of every box; any number between the ends may be the cut.
+
+    Raises:
+        UndecidedError: a box has no number between its ends.
+    """
     box = np.arange(low.shape[1])
     first, last = low[axes, box], high[axes, box]
     cut = first + 0.5 * (last - first)

@@ -25,7 +25,11 @@ class Assembly:
         self._results: list[int] = []
 
     def variables(self) -> dict[Element, int]:
-        """Value numbers of all elements of the variables."""
+        """Value numbers of all elements of the variables.
+
+        Raises:
+            UndecidedError: the proof has more than MAX_STEPS steps.
+        """
         found: dict[Element, int] = {}
         for index, port in enumerate(self._inputs):
             for k in range(port.size):
@@ -35,7 +39,11 @@ class Assembly:
     def splice(
         self, graph: ClaimGraph, arguments: Mapping[Element, int]
     ) -> dict[Element, int]:
-        """Add a graph with its variables replaced; its results by place."""
+        """Add a graph with its variables replaced; its results by place.
+
+        Raises:
+            UndecidedError: the proof has more than MAX_STEPS steps.
+        """
         values: list[int] = []
         results: dict[Element, int] = {}
         for step in graph.steps:
@@ -49,15 +57,28 @@ class Assembly:
         return results
 
     def add(self, op: str, *args: int) -> int:
-        """One more operation."""
+        """One more operation.
+
+        Raises:
+            UndecidedError: the proof has more than MAX_STEPS steps.
+        """
         return self._push(op, args, None, None)
 
     def zero(self) -> int:
-        """The constant 0."""
+        """The constant 0.
+
+        Raises:
+            UndecidedError: the proof has more than MAX_STEPS steps.
+        """
         return self._push("const", (), 0.0, None)
 
     def distance(self, value: int, bound: Fraction, order: int) -> int:
-        """``value - bound`` for order 1, ``bound - value`` for order -1."""
+        """``value - bound`` for order 1, ``bound - value`` for order -1.
+
+        Raises:
+            UndecidedError: the bound has too many digits, or the proof has more
+                than MAX_STEPS steps.
+        """
         top = self._integer(bound.numerator)
         if bound.denominator != 1:
             top = self.add("div", top, self._integer(bound.denominator))

@@ -59,7 +59,11 @@ def tiled(rows: list[Any], pairs: int, pieces: int) -> bool:
 
 
 def nested(targets: Sequence[Target]) -> set[tuple[int, int]]:
-    """(ball, sphere) wherever a coarse pair stands for a pair of spheres."""
+    """(ball, sphere) wherever a coarse pair stands for a pair of spheres.
+
+    Raises:
+        TypeError: a target is of no kind that is known here.
+    """
     found: set[tuple[int, int]] = set()
     for target in targets:
         level: Target = target
@@ -86,5 +90,9 @@ def _spheres(target: Target) -> list[Index]:
 
 
 def spheres(target: Target, pair: int) -> list[int]:
-    """The spheres of one pair: one, or two of a self pair."""
+    """The spheres of one pair: one, or two of a self pair.
+
+    Raises:
+        TypeError: the target is of no kind that is known here.
+    """
     return [int(side[pair]) for side in _spheres(target)]

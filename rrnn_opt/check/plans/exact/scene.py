@@ -117,7 +117,11 @@ class BallScene:
         return gap - flint.arb.min(travel, bend)
 
     def parts(self, target: Target, pair: int, now: Moment) -> tuple[Ball, Ball, Ball]:
-        """Approach by travel, approach along n with its rest, gap at the middle."""
+        """Approach by travel, approach along n with its rest, gap at the middle.
+
+        Raises:
+            TypeError: the target is of no kind that is known here.
+        """
         if isinstance(target, ObstacleTarget):
             sphere = int(target.movers.spheres[pair])
             point = self.body.centre(now.pose, sphere)

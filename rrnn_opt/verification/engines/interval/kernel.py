@@ -85,6 +85,7 @@ class IntervalKernel:
 
         Raises:
             ShapeError: the rows are not the inputs.
+            RrnnError: this machine cannot set the rounding mode.
         """
         want = (self.n_in, np.shape(lower)[-1])
         for name, given in (("lower", lower), ("upper", upper)):

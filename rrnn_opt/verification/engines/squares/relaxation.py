@@ -54,7 +54,11 @@ class Relaxation:
         return remainder(p, self.setting.forms.circles)
 
     def monomials(self, degree: int) -> list[Polynomial]:
-        """All monomials of the generators up to a degree, 1 first."""
+        """All monomials of the generators up to a degree, 1 first.
+
+        Raises:
+            UndecidedError: there are too many.
+        """
         return list(_monomials(self.setting, self.generators, degree))
 
 

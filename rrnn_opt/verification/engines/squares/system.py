@@ -38,7 +38,11 @@ class Block:
 
 
 class System:
-    """The equations between Gram entries, multipliers and the target."""
+    """The equations between Gram entries, multipliers and the target.
+
+    Raises:
+        UndecidedError: there are too many equations.
+    """
 
     def __init__(self, parts: Relaxation, blocks: Sequence[Block]) -> None:
         self.parts, self.blocks = parts, blocks
