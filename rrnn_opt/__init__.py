@@ -7,7 +7,6 @@ so that ``import rrnn_opt`` costs nothing.
 from __future__ import annotations
 
 import importlib
-from importlib import metadata
 from typing import Any
 
 _HOME = {
@@ -48,10 +47,13 @@ _ROOMS = (
     "validation",
 )
 __all__ = list(_HOME) + list(_ROOMS)
-__version__ = metadata.version("rrnn_opt")
 
 
 def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        from importlib import metadata  # costs as much as all the rest
+
+        return metadata.version("rrnn_opt")
     if name in _HOME:
         return getattr(importlib.import_module(_HOME[name]), name)
     if name in _ROOMS:

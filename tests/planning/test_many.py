@@ -1,5 +1,7 @@
 """Many plans: order, seeds and results do not depend on the workers."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -30,3 +32,35 @@ def test_seeds_and_jobs_must_fit(window_problem):
 
 def test_nothing_to_plan():
     assert list(plan_many([])) == []
+
+
+def test_an_interrupted_plan_ends_all(window_problem, monkeypatch):
+    import sys
+
+    many = sys.modules["rrnn_opt.planning.many"]
+    problems = [Problem.from_dict(window_problem())] * 3
+
+    def stopped(problem, *, seed):
+        result = plan(problem, seed=seed)
+        return replace(result, status="interrupted") if seed == 1 else result
+
+    monkeypatch.setattr(many, "plan", stopped)
+    found = plan_many(problems, jobs=1)
+    assert next(found).seed == 0
+    with pytest.raises(KeyboardInterrupt):
+        next(found)
+
+
+def test_a_failing_worker_is_heard(window_problem):
+    """The option is refused wherever the plan is made; no share is lost silently."""
+    problems = [Problem.from_dict(window_problem())] * 4
+    with pytest.raises(ProblemError, match="budget"):
+        list(plan_many(problems, jobs=2, max_explorations=0))
+
+
+def test_who_stops_early_leaves_no_process_waiting(window_problem):
+    problems = [Problem.from_dict(window_problem())] * 30
+    found = plan_many(problems, jobs=2)
+    assert [next(found).seed, next(found).seed] == [0, 1]
+    found.close()
+    assert list(found) == []
