@@ -83,50 +83,68 @@ def generate(
         RrnnError: an option cannot be used.
         UnsupportedOperationError: the graph holds an operation without C text.
     """
-    wanted = Options(**options)
-    core = kernel(dynamics)
-    exact = programme(dynamics) if wanted.fallback else None
     form = dynamics.formulation
     longest, safe = None, None
     if network is not None and form is not None:
         longest = longest_step(network, form, row_norm)
         safe = safe_step(network, form, row_norm)
-    wanted = wanted.below(longest)
-    vectors = reference_vectors(core, wanted)
-    parts = _Parts(
+    parts = _parts(dynamics, Options(**options), kinematics, longest)
+    files = _sources(parts) | _tests(parts)
+    files |= build_files(parts.core, parts.options, parts.words)
+    files |= target_files(parts.options, parts.words)
+    if onboard is not None:
+        files |= onboard_files(onboard, parts.options, parts.words)
+    if "arduino" in layout:
+        files |= arduino(files, parts.options, parts.words)
+    if "fmu" in layout:
+        files |= fmu(parts.core, files, parts.options, parts.words)
+    claims, certificates = claim_files(safe)
+    said = facts(parts.core, parts.options, network, longest)
+    said |= {"claims": claims, "rounding": _rounding(parts)}
+    every = files | _documents(parts) | certificates
+    return with_manifest(parts.options.prefix, every, said)
+
+
+def _parts(
+    dynamics: Dynamics,
+    options: Options,
+    kinematics: Kinematics | None,
+    longest: float | None,
+) -> _Parts:
+    core = kernel(dynamics)
+    exact = programme(dynamics) if options.fallback else None
+    options = options.below(longest)
+    vectors = reference_vectors(core, options)
+    return _Parts(
         core=core,
-        options=wanted,
+        options=options,
         exact=exact,
         pose=None if kinematics is None else pose(kinematics),
         longest=longest,
         vectors=vectors,
-        close=tolerance(core, wanted, vectors),
-        words=render.common_words(core, wanted, exact, longest),
+        close=tolerance(core, options, vectors),
+        words=render.common_words(core, options, exact, longest),
     )
-    files = _sources(parts) | _tests(parts)
-    files |= build_files(core, wanted, parts.words) | target_files(wanted, parts.words)
-    if onboard is not None:
-        files |= onboard_files(onboard, wanted, parts.words)
-    if "arduino" in layout:
-        files |= arduino(files, wanted, parts.words)
-    if "fmu" in layout:
-        files |= fmu(core, files, wanted, parts.words)
-    files["README.md"] = documents.readme(
-        core, parts.words, wanted, parts.close, exact, longest
-    )
-    files["MISRA.md"] = documents.misra(parts.words)
-    files["LICENSE"] = render.verbatim("APACHE-2.0.md")
-    claims, certificates = claim_files(safe)
-    said = facts(core, wanted, network, longest) | {
-        "claims": claims,
-        "rounding": {
-            "defined_to_the_bit": wanted.exact,
-            "stated_error": parts.close,
-            "measured_on_cases": len(vectors),
-            "against": "CasADi in double precision, relative to the larger of 1 and x",
-        },
+
+
+def _documents(parts: _Parts) -> dict[str, str]:
+    return {
+        "README.md": documents.readme(
+            *(parts.core, parts.words, parts.options),
+            *(parts.close, parts.exact, parts.longest),
+        ),
+        "MISRA.md": documents.misra(parts.words),
+        "LICENSE": render.verbatim("APACHE-2.0.md"),
     }
-    return with_manifest(wanted.prefix, files | certificates, said)
+
+
+def _rounding(parts: _Parts) -> dict[str, Any]:
+    return {
+        "defined_to_the_bit": parts.options.exact,
+        "stated_error": parts.close,
+        "measured_on_cases": len(parts.vectors),
+        "against": "CasADi in double precision, relative to the larger of 1 and x",
+    }
 
 
 def _sources(parts: _Parts) -> dict[str, str]:

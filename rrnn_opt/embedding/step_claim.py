@@ -62,34 +62,10 @@ class SafeStep:
 
     def proof(self) -> Proof:
         """No step up to tau goes away from a solution, whatever is active."""
-        n, r = self.n, self.rows
-        du, eu = Symbol.vector("du", n), Symbol.vector("eu", n)
-        dl, el = Symbol.vector("dl", r), Symbol.vector("el", r)
-        B = Symbol.matrix("B", (r, n))
+        variables = du, _, eu, el, B = self._variables()
+        claim = self._claim(variables)
         s2, split, tau = (ca.SX(float(x)) for x in (self.square, self.split, self.tau))
-        Be, Bt = B.sx @ eu.sx, B.sx.T @ el.sx
-        step_u, step_l = 2 * eu.sx + Bt, el.sx - Be
-        fall = -2 * tau * (ca.dot(du.sx, step_u) + ca.dot(dl.sx, step_l))
-        fall -= tau * tau * (ca.sumsqr(step_u) + ca.sumsqr(step_l))
-        toward_u = -(du.sx - B.sx.T @ dl.sx) - eu.sx
-        toward_l = -(B.sx @ du.sx) - el.sx
-        inequality = ca.dot(du.sx + eu.sx, toward_u) + ca.dot(dl.sx + el.sx, toward_l)
-        rows = (
-            Hypothesis("H1", "y* solves the programme", Relation(inequality, ">=0")),
-            _bounded("A1", s2 * ca.sumsqr(eu.sx) - ca.sumsqr(Be)),
-            _bounded("A2", s2 * ca.sumsqr(el.sx) - ca.sumsqr(Bt)),
-        )
-        claim = Claim(
-            id="safe_step",
-            source="B. He, Applied Mathematics and Optimization 35, 1997",
-            statement=f"|y - y*|^2 does not grow in a step of LviPdnn with h gamma = "
-            f"{float(self.tau)!r}, P = I and rows of norm {float(self.square)!r}^(1/2)",
-            variables=(du, dl, eu, el, B),
-            goal=Relation(split * fall, ">=0"),
-            hypotheses=rows,
-            order="discrete",
-            jacobian="frozen",
-        )
+        Be = B.sx @ eu.sx
         free_u = split * 2 * tau - tau * tau * (4 * split + s2 * (split + 1))
         free_l = split * (2 * tau - tau * tau * (1 + s2 + split))
         terms: tuple[Term, ...] = (
@@ -103,6 +79,40 @@ class SafeStep:
         )
         zero = {s.name: [0] * s.size for s in claim.variables}
         return Proof(claim, (), (terms,), (_INEQUALITY,), zero)
+
+    def _variables(self) -> tuple[Symbol, ...]:
+        """Distance y - y* and residual e of both parts of the state, and the rows."""
+        n, r = self.n, self.rows
+        du, eu = Symbol.vector("du", n), Symbol.vector("eu", n)
+        dl, el = Symbol.vector("dl", r), Symbol.vector("el", r)
+        return du, dl, eu, el, Symbol.matrix("B", (r, n))
+
+    def _claim(self, variables: tuple[Symbol, ...]) -> Claim:
+        du, dl, eu, el, B = variables
+        s2, split, tau = (ca.SX(float(x)) for x in (self.square, self.split, self.tau))
+        Be, Bt = B.sx @ eu.sx, B.sx.T @ el.sx
+        step_u, step_l = 2 * eu.sx + Bt, el.sx - Be
+        fall = -2 * tau * (ca.dot(du.sx, step_u) + ca.dot(dl.sx, step_l))
+        fall -= tau * tau * (ca.sumsqr(step_u) + ca.sumsqr(step_l))
+        toward_u = -(du.sx - B.sx.T @ dl.sx) - eu.sx
+        toward_l = -(B.sx @ du.sx) - el.sx
+        inequality = ca.dot(du.sx + eu.sx, toward_u) + ca.dot(dl.sx + el.sx, toward_l)
+        rows = (
+            Hypothesis("H1", "y* solves the programme", Relation(inequality, ">=0")),
+            _bounded("A1", s2 * ca.sumsqr(eu.sx) - ca.sumsqr(Be)),
+            _bounded("A2", s2 * ca.sumsqr(el.sx) - ca.sumsqr(Bt)),
+        )
+        return Claim(
+            id="safe_step",
+            source="B. He, Applied Mathematics and Optimization 35, 1997",
+            statement=f"|y - y*|^2 does not grow in a step of LviPdnn with h gamma = "
+            f"{float(self.tau)!r}, P = I and rows of norm {float(self.square)!r}^(1/2)",
+            variables=variables,
+            goal=Relation(split * fall, ">=0"),
+            hypotheses=rows,
+            order="discrete",
+            jacobian="frozen",
+        )
 
 
 def _bounded(name: str, expression: ca.SX) -> Hypothesis:

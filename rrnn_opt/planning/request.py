@@ -70,6 +70,26 @@ def pack(
         seed: of the runtime's generator.
         number: of the search with this seed; each draws its own stream.
     """
+    tree = problem.solids
+    arrays = _arrays(problem, joints)
+    targets = (TipTarget * max(len(tips), 1))(*(tip_target(t) for t in tips))
+    struct = Request(
+        **{name: array.ctypes.data for name, array in arrays.items()},
+        margin=problem.margin,
+        obstacle_count=len(tree.solids.kind),
+        flat=tree.flat,
+        nodes=len(tree.size),
+        leaf=tree.leaf,
+        joint_goal_count=len(joints),
+        tip_goal_count=len(tips),
+    )
+    struct.tip_goals = ctypes.addressof(targets)
+    struct.seed[:] = [int(word) for word in _seed(seed, number)]
+    return PackedRequest(struct, (arrays, targets))
+
+
+def _arrays(problem: Problem, joints: tuple[Array, ...]) -> dict[str, NDArray[Any]]:
+    """What the request points into, by the name of its field."""
     robot, tree = problem.robot, problem.solids
     floats = {
         "lower": robot.limits.lower,
@@ -81,26 +101,12 @@ def pack(
         "node_bounds": tree.bounds,
         "joint_goals": np.concatenate(joints or (np.zeros(1),)),
     }
-    arrays = {k: np.ascontiguousarray(v, dtype=np.float64) for k, v in floats.items()}
     indices = {
         "kind": tree.solids.kind,
         "first": tree.solids.first,
         "node_first": tree.first,
         "node_size": tree.size,
     }
+    real = {k: np.ascontiguousarray(v, dtype=np.float64) for k, v in floats.items()}
     whole = {k: np.ascontiguousarray(v, dtype=np.int32) for k, v in indices.items()}
-    targets = (TipTarget * max(len(tips), 1))(*(tip_target(t) for t in tips))
-    every: dict[str, NDArray[Any]] = {**arrays, **whole}
-    struct = Request(
-        **{name: array.ctypes.data for name, array in every.items()},
-        margin=problem.margin,
-        obstacle_count=len(tree.solids.kind),
-        flat=tree.flat,
-        nodes=len(tree.size),
-        leaf=tree.leaf,
-        joint_goal_count=len(joints),
-        tip_goal_count=len(tips),
-    )
-    struct.tip_goals = ctypes.addressof(targets)
-    struct.seed[:] = [int(word) for word in _seed(seed, number)]
-    return PackedRequest(struct, (arrays, whole, targets))
+    return {**real, **whole}

@@ -103,21 +103,17 @@ def network_functions(robot: Robot, c1: float, c2: float) -> list[ca.Function]:
 
 def scheme_functions(robot: Robot) -> list[ca.Function]:
     """Attraction, contact bands and accelerations of the comparison schemes."""
-    nv = robot.nv
-    kin = Kinematics(robot)
-    qd, tip, target = ca.SX.sym("qd", nv), ca.SX.sym("tip", 3), ca.SX.sym("target", 3)
+    return [*_task_functions(), *_acceleration_functions(robot)]
+
+
+def _task_functions() -> list[ca.Function]:
+    """Velocity towards the target, and how far a contact is inside its band."""
+    tip, target = ca.SX.sym("tip", 3), ca.SX.sym("target", 3)
     gain, speed, gap = ca.SX.sym("gain"), ca.SX.sym("speed"), ca.SX.sym("gap")
     inner, outer = ca.SX.sym("inner"), ca.SX.sym("outer")
     unit, place = Band(0.0, 1.0), (gap - inner) / (outer - inner)
     error = target - tip
     length = ca.sqrt(ca.sumsqr(error))
-    lower, upper = acceleration_bounds(kin.q, qd, robot.limits)
-
-    def drift(point: ca.SX) -> ca.SX:
-        """Acceleration of points while the joint velocities stay the same."""
-        velocity = ca.jtimes(ca.vec(point), kin.q, qd)
-        return ca.densify(ca.jtimes(velocity, kin.q, qd))
-
     return [
         ca.Function(
             "k_attraction",
@@ -133,6 +129,20 @@ def scheme_functions(robot: Robot) -> list[ca.Function]:
             ["gap", "inner", "outer"],
             ["share", "slope"],
         ),
+    ]
+
+
+def _acceleration_functions(robot: Robot) -> list[ca.Function]:
+    """Acceleration of the tip and the centres at rest, and limits of the joints'."""
+    kin, qd = Kinematics(robot), ca.SX.sym("qd", robot.nv)
+    lower, upper = acceleration_bounds(kin.q, qd, robot.limits)
+
+    def drift(point: ca.SX) -> ca.SX:
+        """Acceleration of points while the joint velocities stay the same."""
+        velocity = ca.jtimes(ca.vec(point), kin.q, qd)
+        return ca.densify(ca.jtimes(velocity, kin.q, qd))
+
+    return [
         ca.Function(
             "k_drift",
             [kin.q, qd],

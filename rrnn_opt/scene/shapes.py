@@ -36,7 +36,7 @@ def _checked(shape: object, **values: object) -> None:
         object.__setattr__(shape, key, value)
 
 
-def _pose(shape: Box | Cylinder | Capsule) -> dict[str, object]:
+def _pose(shape: Box | _Round) -> dict[str, object]:
     return {
         "name": check.text(shape.name, "name"),
         "position": check.vector(shape.position, 3, "position"),
@@ -100,21 +100,9 @@ class Box(_Named):
 
 
 @dataclass(frozen=True, eq=False)
-class Cylinder(_Named):
-    """A cylinder around its local z axis.
+class _Round(_Named):
+    """What cylinders and capsules have: a radius, and a length along local z."""
 
-    Attributes:
-        name: shown in reports and witnesses.
-        radius: m.
-        length: between the flat ends, m.
-        position: centre, (3,), m.
-        quat_xyzw: orientation, (4,).
-
-    Raises:
-        ProblemError: as for a box.
-    """
-
-    kind: ClassVar[str] = "cylinder"
     radius: float
     length: float
     position: Array = field(default_factory=_origin)
@@ -136,7 +124,25 @@ class Cylinder(_Named):
 
 
 @dataclass(frozen=True, eq=False)
-class Capsule(_Named):
+class Cylinder(_Round):
+    """A cylinder around its local z axis.
+
+    Attributes:
+        name: shown in reports and witnesses.
+        radius: m.
+        length: between the flat ends, m.
+        position: centre, (3,), m.
+        quat_xyzw: orientation, (4,).
+
+    Raises:
+        ProblemError: as for a box.
+    """
+
+    kind: ClassVar[str] = "cylinder"
+
+
+@dataclass(frozen=True, eq=False)
+class Capsule(_Round):
     """All points within ``radius`` of a segment along the local z axis.
 
     Attributes:
@@ -151,24 +157,6 @@ class Capsule(_Named):
     """
 
     kind: ClassVar[str] = "capsule"
-    radius: float
-    length: float
-    position: Array = field(default_factory=_origin)
-    quat_xyzw: Array = field(default_factory=_upright)
-
-    def __post_init__(self) -> None:
-        radius = check.positive(self.radius, "radius")
-        length = check.positive(self.length, "length")
-        _checked(self, radius=radius, length=length, **_pose(self))
-
-    @property
-    def rotation(self) -> Array:
-        """Axes as columns, (3, 3)."""
-        return matrix_from_quaternion(self.quat_xyzw)
-
-    def pack(self) -> Array:
-        """Rotation, position, radius and half length, (16,)."""
-        return _packed(self.rotation, self.position, self.radius, 0.5 * self.length)
 
 
 @dataclass(frozen=True, eq=False)

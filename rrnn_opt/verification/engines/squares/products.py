@@ -18,12 +18,11 @@ from typing import Any
 
 from flint import fmpq
 
-from rrnn_opt.check.claims.document import read_claim
 from rrnn_opt.check.claims.graph.expansion import Polynomial
-from rrnn_opt.check.claims.graph.semialgebraic import Semialgebraic, semialgebraic
+from rrnn_opt.check.claims.graph.semialgebraic import Semialgebraic
 from rrnn_opt.claim import Claim
 from rrnn_opt.errors import UndecidedError
-from rrnn_opt.verification.document import certificate_document, claim_block
+from rrnn_opt.verification.engines.squares.proposal import element_by_element
 from rrnn_opt.verification.engines.squares.relaxation import (
     Relaxation,
     generators_of,
@@ -46,15 +45,7 @@ def propose(claim: Claim, *, budget_s: float, seed: int) -> Iterator[dict[str, A
     Raises:
         UndecidedError: no identity of this form was found.
     """
-    end = time.monotonic() + budget_s
-    setting = semialgebraic(read_claim(claim_block(claim)))
-    elements = []
-    for k, goal in enumerate(setting.goals):
-        proof = _proof(setting, goal, end)
-        if proof is None:
-            raise UndecidedError(f"no identity of products for element {k}")
-        elements.append(proof)
-    yield certificate_document(claim, "sos", payload={"elements": elements})
+    yield from element_by_element(claim, _proof, what="products", budget_s=budget_s)
 
 
 def _proof(

@@ -18,14 +18,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.check.claims.document import read_claim
 from rrnn_opt.check.claims.graph.expansion import Polynomial
-from rrnn_opt.check.claims.graph.semialgebraic import Semialgebraic, semialgebraic
+from rrnn_opt.check.claims.graph.semialgebraic import Semialgebraic
 from rrnn_opt.claim import Claim
 from rrnn_opt.errors import UndecidedError
-from rrnn_opt.verification.document import certificate_document, claim_block
 from rrnn_opt.verification.engines.conic import require_clarabel, solve
 from rrnn_opt.verification.engines.squares.kernel import complement
+from rrnn_opt.verification.engines.squares.proposal import element_by_element
 from rrnn_opt.verification.engines.squares.relaxation import Relaxation, relaxation
 from rrnn_opt.verification.engines.squares.system import Block, System
 
@@ -48,15 +47,7 @@ def propose(claim: Claim, *, budget_s: float, seed: int) -> Iterator[dict[str, A
     if claim.goal.sense == "==0":
         raise UndecidedError("an equation has no sum of squares here")
     require_clarabel()
-    end = time.monotonic() + budget_s
-    setting = semialgebraic(read_claim(claim_block(claim)))
-    elements = []
-    for k, goal in enumerate(setting.goals):
-        proof = _proof(setting, goal, end)
-        if proof is None:
-            raise UndecidedError(f"no identity of squares for element {k}")
-        elements.append(proof)
-    yield certificate_document(claim, "sos", payload={"elements": elements})
+    yield from element_by_element(claim, _proof, what="squares", budget_s=budget_s)
 
 
 def _proof(
