@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import platform
 import tempfile
-from importlib import metadata
 from typing import Any
 
 from rrnn_opt.cli.output import Output
@@ -66,6 +65,8 @@ def examined() -> dict[str, Any]:
 
 
 def _version(name: str) -> str | None:
+    from importlib import metadata
+
     try:
         return metadata.version(name)
     except metadata.PackageNotFoundError:

@@ -38,7 +38,7 @@ class RetimeSettings:
         overshoot: positions may leave the joint box by this, rad or m.
     """
 
-    rows: int = 100
+    rows: int = 80
     max_stretch: float = 1.05
     refinements: int = 2
     overshoot: float = 1e-10

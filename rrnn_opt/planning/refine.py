@@ -97,7 +97,7 @@ def refine(
         best,
         lambda a, b: first.segment_free(a, b, clearance=clear),
         rng=np.random.default_rng([seed, 1]),
-        attempts=STRAIGHT_SHORTCUTS,
+        attempts=0 if _nearly_straight(best) else STRAIGHT_SHORTCUTS,
     )
     return Refined(straight, rounds, length(raw), length(straight))
 
@@ -116,7 +116,14 @@ def _shortened(search: Search, path: Array, slides: int, best: float) -> Array:
     No path between its ends is shorter than their distance: slides are left out
     where that is the path's length already, or no less than ``best``.
     """
-    apart = float(np.linalg.norm(path[-1] - path[0]))
-    if apart >= best or length(path) <= NEARLY * apart:
+    if _apart(path) >= best or _nearly_straight(path):
         return path
     return search.shorten(path, slides)
+
+
+def _apart(path: Array) -> float:
+    return float(np.linalg.norm(path[-1] - path[0]))
+
+
+def _nearly_straight(path: Array) -> bool:
+    return length(path) <= NEARLY * _apart(path)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from importlib import metadata
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -160,5 +160,12 @@ class PlanResult:
 
 def versions() -> dict[str, str]:
     """Versions of the package and of what a plan depends on."""
+    return dict(_versions())
+
+
+@lru_cache(maxsize=1)
+def _versions() -> tuple[tuple[str, str], ...]:
+    from importlib import metadata
+
     names = ("rrnn_opt", "casadi", "numpy", "toppra")
-    return {name: metadata.version(name) for name in names}
+    return tuple((name, metadata.version(name)) for name in names)

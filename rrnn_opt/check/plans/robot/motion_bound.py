@@ -83,7 +83,8 @@ def motion_bound(
     before = np.zeros_like(step)
     np.cumsum(turned[:, :-1], axis=1, out=before[:, 1:])
     levers = np.where(prismatic, 1.0, reach)
-    total: Array = np.sum(step * levers * (turned + 2 * before), axis=1)
+    before += before
+    total: Array = np.einsum("ij,ij,ij->i", step, levers, turned + before)
     return total * GROW
 
 

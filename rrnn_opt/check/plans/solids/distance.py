@@ -176,8 +176,10 @@ def _lengths(rows: Array) -> Array:
 
 def _box(local: Array, half: Array) -> Array:
     over = np.abs(local) - half
-    outside, inside = np.maximum(over, 0.0), np.minimum(over.max(axis=1), 0.0)
-    return np.asarray(_lengths(outside) + inside)
+    most = np.maximum(over[:, 0], over[:, -1])
+    if over.shape[1] == 3:
+        most = np.maximum(most, over[:, 1])
+    return np.asarray(_lengths(np.maximum(over, 0.0)) + np.minimum(most, 0.0))
 
 
 def _box_normals(local: Array, half: Array) -> Array:
