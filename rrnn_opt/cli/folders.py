@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 from pathlib import Path
 
 from rrnn_opt.cli.output import UsageError
+
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""Errors of a disk that holds no more, or may not."""
 
 
 def folder(path: str) -> Path:
@@ -29,4 +33,6 @@ def folder(path: str) -> Path:
 def os_sentence(error: OSError) -> str:
     """An operating system's error as one sentence."""
     reason = error.strerror or str(error) or type(error).__name__
+    if error.errno in FULL:
+        reason += "; free some room, or name a folder on another disk"
     return f"{os.fspath(error.filename)}: {reason}" if error.filename else reason

@@ -28,7 +28,7 @@ from rrnn_opt.cli import (
     verify,
     view,
 )
-from rrnn_opt.cli.folders import os_sentence
+from rrnn_opt.cli.folders import FULL, os_sentence
 from rrnn_opt.cli.interrupt import Interrupt, noticed
 from rrnn_opt.cli.output import Output, UsageError, opened
 from rrnn_opt.errors import RrnnError
@@ -129,7 +129,19 @@ def _run(words: list[str], out: Output) -> int:
         out.document({"text": shown.getvalue()})
         out.say(shown.getvalue().rstrip())
         return 0
-    return int(COMMANDS[args.command].run(args, out))
+    code = int(COMMANDS[args.command].run(args, out))
+    _mention_cache(out)
+    return code
+
+
+def _mention_cache(out: Output) -> None:
+    """Say when compiled code could not be kept, for that costs time at every run."""
+    cache = sys.modules.get("rrnn_opt.emit.cache")
+    if cache is not None and cache.private_folder.cache_info().currsize:
+        out.note(
+            f"rrnn: compiled code cannot be kept in {cache.cache_folder()}, so that it"
+            " is compiled again every time; set RRNN_CACHE_DIR to a folder with room"
+        )
 
 
 def _explained(out: Output, name: str, error: Exception) -> int:
@@ -137,7 +149,7 @@ def _explained(out: Output, name: str, error: Exception) -> int:
     if isinstance(error, RrnnError):
         return _failed(out, name, str(error), BAD_INPUT)
     if isinstance(error, OSError):
-        code = FAILED if out.done else BAD_INPUT
+        code = FAILED if out.done or error.errno in FULL else BAD_INPUT
         return _failed(out, name, os_sentence(error), code)
     hint = "this is a fault of ours: run it again with --debug to see where"
     return _failed(out, "", f"{type(error).__name__}: {error}; {hint}", FAILED)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
 import shutil
+import time
 import uuid
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,6 +18,8 @@ from rrnn_opt.errors import RrnnError
 
 KIND = "rrnn_opt C package"
 MANIFEST = "MANIFEST.json"
+STALE = 3600.0
+"""Age in seconds from which a draft is nobody's any more."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +65,7 @@ class Package:
             parent.mkdir(parents=True, exist_ok=True)
             _fill(draft, self.files)
             _move(draft, target, stale)
+            _sweep(parent, self.prefix)
         except OSError as error:
             raise RrnnError(f"cannot write '{target}': {error}") from error
         finally:
@@ -117,6 +122,14 @@ def _fill(folder: Path, files: Mapping[str, str]) -> None:
         place = folder / path
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(text.encode())
+
+
+def _sweep(parent: Path, prefix: str) -> None:
+    """Remove drafts that killed runs left an hour ago or more."""
+    for path in parent.glob(f".{prefix}.{'[0-9a-f]' * 32}"):
+        with contextlib.suppress(OSError):
+            if not path.is_symlink() and time.time() - path.stat().st_mtime > STALE:
+                shutil.rmtree(path, ignore_errors=True)
 
 
 def _move(draft: Path, target: Path, stale: set[str]) -> None:

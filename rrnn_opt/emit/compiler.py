@@ -73,16 +73,30 @@ def find_compiler() -> Compiler:
 @functools.lru_cache(maxsize=16)
 def _find(chosen: str, path: str, zig: tuple[str, ...]) -> Compiler:
     if chosen.strip():
-        found = _ask(tuple(shlex.split(chosen)), path)
+        words = _words(chosen, path)
+        found = _ask(words, path) if words else None
         if found is None:
-            message = f"CC='{chosen}' cannot be run: correct it or unset CC"
-            raise CompilerError(message, shlex.split(chosen))
+            message = (
+                f"CC='{chosen}' cannot be run: correct it (quote a path with"
+                " spaces), or unset CC"
+            )
+            raise CompilerError(message, list(words))
         return found
     for command in (("gcc",), ("clang",), ("cc",), zig):
         found = _ask(command, path) if command else None
         if found is not None:
             return found
     raise CompilerError(ADVICE)
+
+
+def _words(chosen: str, path: str) -> tuple[str, ...]:
+    """A program and its arguments; none when quotes do not close."""
+    if shutil.which(chosen, path=path):  # a path with spaces in it
+        return (chosen,)
+    try:
+        return tuple(shlex.split(chosen))
+    except ValueError:
+        return ()
 
 
 def _zig() -> tuple[str, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import hashlib
 import os
@@ -11,10 +12,14 @@ import tempfile
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from rrnn_opt.emit import cache
 from rrnn_opt.emit.compiler import TIMEOUT, Compiler, cpu_name, find_compiler, run
 from rrnn_opt.errors import CompilerError
+
+_MAGIC = (b"\x7fELF", b"\xcf\xfa\xed\xfe", b"MZ")
+"""How shared objects begin: Linux, macOS, Windows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,12 +73,27 @@ def load(built: Built | pathlib.Path) -> ctypes.CDLL:
     """
     path = built.path if isinstance(built, Built) else built
     try:
-        return ctypes.CDLL(str(path), mode=os.RTLD_LOCAL | os.RTLD_NOW)
+        return _Library(str(path), mode=os.RTLD_LOCAL | os.RTLD_NOW)
     except OSError as error:
+        with contextlib.suppress(OSError):
+            path.unlink()  # the next build makes it again
         raise CompilerError(
             f"cannot load compiled code ({error}):"
             " set RRNN_CACHE_DIR to a folder from which programs may run"
         ) from error
+
+
+class _Library(ctypes.CDLL):
+    """A library that names a function it lacks in an error of ours."""
+
+    def __getitem__(self, name: Any) -> Any:
+        try:
+            return super().__getitem__(name)
+        except AttributeError as error:
+            raise CompilerError(
+                f"compiled code lacks '{name}': the C compiler made something else"
+                " than it was asked for; try another one by setting CC"
+            ) from error
 
 
 def _key(source: str, words: Sequence[str], compiler: Compiler) -> str:
@@ -132,7 +152,8 @@ def compile_text(
     """Bytes of the shared object that the compiler makes of this text.
 
     Raises:
-        CompilerError: it refuses, hangs, or has no room for its files.
+        CompilerError: it refuses, hangs, makes no shared object, or has no room
+            for its files.
     """
     try:
         with tempfile.TemporaryDirectory(prefix=cache.PREFIX) as folder:
@@ -142,12 +163,25 @@ def compile_text(
             code, output = run(command, timeout=timeout, env=_environment(folder))
             if code != 0:
                 raise CompilerError(_refusal(code, output), command, output[:4000])
-            return out.read_bytes()
+            return _object(out, command, output)
     except OSError as error:
         raise CompilerError(
             f"the C compiler has nowhere to write ({error}):"
             " set TMPDIR to a writable folder with free space"
         ) from error
+
+
+def _object(out: pathlib.Path, command: list[str], output: str) -> bytes:
+    """What the compiler made, if it can be a shared object at all."""
+    body = out.read_bytes() if out.exists() else b""
+    if not body.startswith(_MAGIC):
+        raise CompilerError(
+            f"the C compiler '{command[0]}' ended well but made no shared object;"
+            " try another one by setting CC",
+            command,
+            output[:4000],
+        )
+    return body
 
 
 def _environment(folder: str) -> dict[str, str]:

@@ -28,6 +28,14 @@ def write_bytes(path: str | Path, data: bytes) -> Path:
             and nothing half-written is left.
     """
     target = Path(path)
+    try:
+        _replace(target, data)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(target)) from error
+    return target
+
+
+def _replace(target: Path, data: bytes) -> None:
     _sweep(target)
     handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     try:
@@ -40,7 +48,6 @@ def write_bytes(path: str | Path, data: bytes) -> Path:
     except BaseException:
         Path(name).unlink(missing_ok=True)
         raise
-    return target
 
 
 def write_text(path: str | Path, text: str) -> Path:
