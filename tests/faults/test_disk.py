@@ -69,7 +69,7 @@ def test_read_only_folders_are_refused_before_the_work(place):
             ("generate", "minimum_velocity", "--robot", "planar3", "--out", "out"),
             ("spheres", "arm.urdf", "--out", "out/spheres.json"),
             ("reproduce", "fig3", "--out", "out"),
-            ("compare", "pa10-circle", "--out", "out"),
+            ("compare", "circle", "--out", "out"),
         ]
         for words in commands:
             run = place.rrnn(*words, "--json")
