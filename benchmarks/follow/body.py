@@ -127,7 +127,8 @@ class Follower:
                 frames[n, k], twists[n, k] = poses[k].homogeneous, moves[k].vector
         on = self.joints + 1
         local = twists[:, on, :3] + np.cross(twists[:, on, 3:], self.centers)
-        turned, places = frames[:, on, :3, :3], frames[:, on, :3, 3]
+        frames = frames[:, on]
+        turned, places = frames[..., :3, :3], frames[..., :3, 3]
         where = (turned @ self.centers[:, :, None])[..., 0] + places
         return where, (turned @ local[..., None])[..., 0]
 
