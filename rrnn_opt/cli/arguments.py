@@ -30,6 +30,14 @@ def count(text: str) -> int:
     return value
 
 
+def whole(text: str) -> int:
+    """An integer, zero or more."""
+    value = _int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not an integer, zero or more")
+    return value
+
+
 def seed(text: str) -> int:
     """An integer from 0 to 2**63 - 1."""
     value = _int(text)

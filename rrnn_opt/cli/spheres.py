@@ -8,13 +8,14 @@ import math
 from pathlib import Path
 from typing import Any
 
-from rrnn_opt.cli.arguments import count, seconds
+from rrnn_opt.cli.arguments import count, seconds, whole
 from rrnn_opt.cli.folders import folder
 from rrnn_opt.cli.output import Output, UsageError
 
 HELP = "fit collision spheres to a URDF's geometry and prove that they cover it"
 INFLATION = 0.02
 MOST = 16
+EXTRA = 96
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -35,6 +36,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=MOST,
         metavar="N",
         help="spheres for each piece of geometry at most (default %(default)s)",
+    )
+    parser.add_argument(
+        "--extra",
+        type=whole,
+        default=EXTRA,
+        metavar="N",
+        help="more spheres at most where links pass each other closely"
+        " (default %(default)s)",
     )
     parser.add_argument(
         "--package-dir",
@@ -63,6 +72,7 @@ def run(args: argparse.Namespace, out: Output) -> int:
         tip=args.tip,
         inflation=args.inflation,
         most=args.most,
+        extra=args.extra,
         folders=tuple(Path(folder) for folder in args.package_dir),
     )
     write_text(target, json.dumps(fitted.to_dict(), indent=1) + "\n")
@@ -89,6 +99,12 @@ def described(fitted: Any, path: str) -> dict[str, Any]:
         "covered": fitted.covered,
         "spheres": sum(link["spheres"] for link in links),
         "inflation_m": max((link["inflation_m"] for link in links), default=math.nan),
+        "self_contact": {
+            "postures": fitted.contact.postures,
+            "spheres_first": fitted.before.spheres,
+            "spheres": fitted.contact.spheres,
+            "geometry": fitted.contact.geometry,
+        },
         "links": links,
         "disabled_self_collision_pairs": [list(row) for row in fitted.disabled],
         "visual_geometry": list(fitted.visual),
@@ -111,4 +127,10 @@ def _text(facts: dict[str, Any]) -> str:
     verdict = "cover" if facts["covered"] else "DO NOT cover"
     pairs = len(facts["disabled_self_collision_pairs"])
     head = f"{facts['spheres']} spheres {verdict} the geometry; {pairs} pairs disabled"
+    touch = facts["self_contact"]
+    head += (
+        f"\nlinks touch themselves in {touch['postures']} random postures: spheres"
+        f" {touch['spheres']:.1%} ({touch['spheres_first']:.1%} before spheres were"
+        f" added), geometry {touch['geometry']:.1%}"
+    )
     return f"{head}\n{table(header, rows, indent=2)}\nwrote {facts['file']}"

@@ -10,6 +10,7 @@ import math
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,9 @@ from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.placement import compose, shift, turn
 from rrnn_opt.robot.tree import Array
 from rrnn_opt.robot.urdf import SIZES, Urdf
+
+SIDES = 32
+"""Of the prism about a cylinder, which is 0.5 % wider."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +43,29 @@ class Geometry:
     pose: Array
     vertices: Array
     triangles: NDArray[np.int64]
+
+    def corners(self) -> Array:
+        """Points, in the piece's own axes, whose hull holds it, (n, 3), m.
+
+        Corners of a box, of the prism about a cylinder and of a sphere's cube;
+        the vertices of a mesh.
+        """
+        if self.kind == "mesh":
+            return self.vertices
+        if self.kind == "cylinder":
+            radius, length = self.size
+            turn = 2 * np.pi * np.arange(SIDES) / SIDES
+            wide = (1.0 + 1e-12) * radius / np.cos(np.pi / SIDES)
+            ring = wide * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+            ends = (-0.5 * length, 0.5 * length)
+            return np.concatenate([np.c_[ring, np.full(SIDES, z)] for z in ends])
+        edges = self.size if self.kind == "box" else (2 * self.size[0],) * 3
+        signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
+        return np.asarray(0.5 * signs * np.array(edges))
+
+    def extremes(self) -> Array:
+        """``corners`` in the link's frame, (n, 3), m."""
+        return self.corners() @ self.pose[:3, :3].T + self.pose[:3, 3]
 
 
 def collision_geometry(
@@ -141,29 +168,48 @@ def load_mesh(path: Path, scale: Array) -> tuple[Array, NDArray[np.int64]]:
     return vertices, triangles
 
 
-def ever_touch(
-    first: list[Geometry], second: list[Geometry], poses: list[tuple[Array, Array]]
-) -> bool:
-    """Whether two links' geometry touches in any of the poses, asked of coal.
+class Gap:
+    """Geometry of two links, of which coal tells how far apart it is.
 
     Args:
         first: geometry of one link.
         second: of the other.
-        poses: (4, 4) of both links' frames, m.
     """
-    import coal
 
-    ours = [(_solid(piece), piece.pose) for piece in first]
-    theirs = [(_solid(piece), piece.pose) for piece in second]
-    request, result = coal.CollisionRequest(), coal.CollisionResult()
-    for a, b in poses:
-        for one, at in ours:
-            for other, there in theirs:
-                result.clear()
-                placed = _placed(a @ at), _placed(b @ there)
-                if coal.collide(one, placed[0], other, placed[1], request, result):
-                    return True
-    return False
+    def __init__(self, first: list[Geometry], second: list[Geometry]) -> None:
+        self._pairs = [
+            (_solid(one), one.pose, _solid(other), other.pose)
+            for one, other in product(first, second)
+        ]
+
+    def touching(self, first: Array, second: Array) -> bool:
+        """Whether they touch where the links' frames are at poses (4, 4), m."""
+        import coal
+
+        for one, at, other, there in self._pairs:
+            request, result = coal.CollisionRequest(), coal.CollisionResult()
+            placed = _placed(first @ at), _placed(second @ there)
+            if coal.collide(one, placed[0], other, placed[1], request, result):
+                return True
+        return False
+
+    def at(self, first: Array, second: Array) -> float:
+        """Their distance where the links' frames are at poses (4, 4), m."""
+        import coal
+
+        return min(
+            float(
+                coal.distance(
+                    one,
+                    _placed(first @ at),
+                    other,
+                    _placed(second @ there),
+                    coal.DistanceRequest(),
+                    coal.DistanceResult(),
+                )
+            )
+            for one, at, other, there in self._pairs
+        )
 
 
 def _placed(pose: Array) -> Any:

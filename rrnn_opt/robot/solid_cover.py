@@ -11,12 +11,14 @@ lost), until no ball bulges by more than is wanted or there are enough of them.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rrnn_opt.robot.ball import directions, outermost, smallest_ball
 from rrnn_opt.robot.tree import Array
 
 PADDING = 2e-4
@@ -24,8 +26,6 @@ PADDING = 2e-4
 so that the surface can be shown to be covered by cutting triangles finitely."""
 DEPTHS = (0.0, 0.5, 1.0, 2.0)
 """How deep a ball's centre is tried, times the radius of the smallest ball."""
-_STEPS = 64
-_DIRECTIONS = 96
 _SAMPLES = 6000
 
 
@@ -46,13 +46,23 @@ class SolidCover:
 
 
 @dataclass(frozen=True, eq=False)
-class _Part:
-    """Corners of triangles, (t, 3, 3), and the ball about them."""
+class Part:
+    """A piece of a surface and the ball that holds it.
+
+    Attributes:
+        corners: of its triangles, (t, 3, 3), m.
+        center: of the ball, (3,), m.
+        radius: m.
+        bulge: how far the ball is seen to come out of the solid, m.
+    """
 
     corners: Array
     center: Array
     radius: float
     bulge: float
+
+
+Burden = Callable[[Array, float], float]
 
 
 class Surface:
@@ -112,13 +122,7 @@ def cover_solid(
     Returns:
         The cover.
     """
-    surface = Surface(vertices, triangles)
-    parts = [_part(surface.corners, surface)]
-    while len(parts) < most:
-        worst = max(range(len(parts)), key=lambda k: parts[k].bulge)
-        if parts[worst].bulge <= inflation:
-            break
-        parts[worst : worst + 1] = _halves(parts[worst].corners, surface)
+    parts = solid_parts(Surface(vertices, triangles), inflation, most)
     return SolidCover(
         np.array([part.center for part in parts]),
         np.array([part.radius for part in parts]),
@@ -126,19 +130,38 @@ def cover_solid(
     )
 
 
-def _part(corners: Array, surface: Surface) -> _Part:
+def solid_parts(surface: Surface, inflation: float, most: int) -> list[Part]:
+    """Parts of a surface whose balls hold it, as in ``cover_solid``."""
+    parts = [_part(surface.corners, surface)]
+    while len(parts) < most:
+        worst = max(range(len(parts)), key=lambda k: parts[k].bulge)
+        if parts[worst].bulge <= inflation:
+            break
+        parts[worst : worst + 1] = halves(parts[worst], surface)
+    return parts
+
+
+def _part(
+    corners: Array,
+    surface: Surface,
+    burden: Burden | None = None,
+    most: float = 0.0,
+) -> Part:
+    """The ball of least bulge; of least burden, where none bulges beyond ``most``."""
     points = corners.reshape(-1, 3)
-    middle, least = smallest_ball(points)
+    middle, least = smallest_ball(outermost(points))
     inwards = _inwards(corners)
-    best: _Part | None = None
+    best: tuple[tuple[float, float], Part] | None = None
     for depth in DEPTHS:
         center = middle + depth * least * inwards
         radius = float(np.linalg.norm(points - center, axis=1).max()) + PADDING
-        bulge = float(surface.outside(center + radius * _directions()).max())
-        if best is None or bulge < best.bulge:
-            best = _Part(corners, center, radius, bulge)
+        bulge = float(surface.outside(center + radius * directions()).max())
+        load = 0.0 if burden is None else burden(center, radius)
+        cost = max(bulge, most), load
+        if best is None or cost < best[0]:
+            best = cost, Part(corners, center, radius, bulge)
     assert best is not None
-    return best
+    return best[1]
 
 
 def _inwards(corners: Array) -> Array:
@@ -149,47 +172,39 @@ def _inwards(corners: Array) -> Array:
     return np.asarray(-across.sum(axis=0) / max(area, 1e-300))
 
 
-def smallest_ball(points: Array) -> tuple[Array, float]:
-    """A ball that holds all points (n, 3), little larger than the smallest.
+def halves(
+    part: Part,
+    surface: Surface,
+    burden: Burden | None = None,
+    most: float = 0.0,
+) -> list[Part]:
+    """Both sides of the best plane across the middle of a principal axis.
 
-    Badoiu and Clarkson (SODA 2003): step k goes 1/(k + 1) of the way to the
-    farthest point; the radius is the largest distance at the end.
+    Args:
+        part: to be cut.
+        surface: that it belongs to.
+        burden: of a ball with this centre and radius; the sum over both sides is
+            made least, in place of the larger bulge.
+        most: bulge that then costs nothing, m.
     """
-    points = np.unique(points, axis=0)
-    center = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    best, least = center, np.inf
-    for k in range(_STEPS):
-        away = np.linalg.norm(points - center, axis=1)
-        far = int(np.argmax(away))
-        if away[far] < least:
-            best, least = center, float(away[far])
-        center = center + (points[far] - center) / (k + 2)
-    return best, least
-
-
-def _directions() -> Array:
-    """Unit vectors spread evenly over the sphere, (n, 3)."""
-    k = np.arange(_DIRECTIONS) + 0.5
-    z = 1 - 2 * k / _DIRECTIONS
-    turn = np.pi * (1 + 5**0.5) * k
-    flat = np.sqrt(1 - z * z)
-    return np.stack([flat * np.cos(turn), flat * np.sin(turn), z], axis=1)
-
-
-def _halves(corners: Array, surface: Surface) -> list[_Part]:
-    """Both sides of the best plane across the middle of a principal axis."""
+    corners = part.corners
     points = corners.reshape(-1, 3)
     middle = points - points.mean(axis=0)
     axes = np.linalg.eigh(middle.T @ middle)[1]
-    best: list[_Part] = []
+    best: list[Part] = []
+    least = (np.inf, np.inf)
     for axis in axes.T:
-        halves = [_part(side, surface) for side in _cut(corners, axis)]
-        if not best or _cost(halves) < _cost(best):
-            best = halves
+        found = [_part(side, surface, burden, most) for side in _cut(corners, axis)]
+        cost = _cost(found)
+        if burden is not None:
+            load = sum(burden(p.center, p.radius) for p in found)
+            cost = max(cost[0], most), load
+        if cost < least:
+            best, least = found, cost
     return best
 
 
-def _cost(parts: list[_Part]) -> tuple[float, float]:
+def _cost(parts: list[Part]) -> tuple[float, float]:
     return max(p.bulge for p in parts), sum(p.radius for p in parts)
 
 

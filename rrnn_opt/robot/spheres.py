@@ -3,46 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from rrnn_opt.robot.cover import cover_box, cover_cylinder
-from rrnn_opt.robot.cover_proof import uncovered
-from rrnn_opt.robot.geometry import Geometry, collision_geometry, ever_touch
-from rrnn_opt.robot.kinematics import Kinematics
+from rrnn_opt.robot.apart import never_touch, path_joints
+from rrnn_opt.robot.geometry import Geometry, collision_geometry
+from rrnn_opt.robot.link_cover import CoveredLink, LinkCover
 from rrnn_opt.robot.robot import Robot
-from rrnn_opt.robot.solid_cover import cover_solid
-from rrnn_opt.robot.sphere_file import checked_pairs, placed_spheres
-from rrnn_opt.robot.tree import Array
-from rrnn_opt.robot.urdf import Urdf, read_urdf
+from rrnn_opt.robot.sampled import Sampled
+from rrnn_opt.robot.self_contact import (
+    Pair,
+    PairContact,
+    SelfContact,
+    refine,
+    self_contact,
+)
+from rrnn_opt.robot.urdf import read_urdf
 
-POSTURES = 400
+POSTURES = 1000
 """Random postures in which pairs are looked at."""
 NEIGHBOURS = 2
 SEED = 0
-
-
-@dataclass(frozen=True)
-class LinkCover:
-    """How a link was covered.
-
-    Attributes:
-        link: its name.
-        balls: (center (3,), radius), m, in the link's frame.
-        inflation: how far they bulge out of the geometry, m.
-        uncovered: triangles of its meshes that are not shown to be covered.
-        triangles: of its meshes.
-    """
-
-    link: str
-    balls: tuple[tuple[Array, float], ...]
-    inflation: float
-    uncovered: int
-    triangles: int
+SHARE = 0.005
+"""Share of false contacts of a pair that is left alone."""
+EXTRA = 96
 
 
 @dataclass(frozen=True)
@@ -53,11 +39,15 @@ class FittedSpheres:
         links: covers, in the file's order.
         disabled: (link, link, reason) pairs that should not be checked.
         visual: links whose visual geometry was taken for want of another.
+        contact: how often checked links touch, in postures of their own.
+        before: the same before spheres were added.
     """
 
     links: tuple[LinkCover, ...]
     disabled: tuple[tuple[str, str, str], ...]
     visual: tuple[str, ...]
+    contact: SelfContact
+    before: SelfContact
 
     @property
     def covered(self) -> bool:
@@ -85,6 +75,7 @@ def fit_spheres(
     tips: Sequence[str] = (),
     inflation: float = 0.02,
     most: int = 16,
+    extra: int = EXTRA,
     folders: tuple[Path, ...] = (),
 ) -> FittedSpheres:
     """Covering spheres of every link of a URDF.
@@ -96,127 +87,98 @@ def fit_spheres(
         tips: links of several arms that move at once, in place of ``tip``.
         inflation: wanted bulge, m; missed where ``most`` is too small.
         most: spheres a piece of geometry, at most.
+        extra: spheres added at most where links pass each other more closely
+            than the bulges leave room for, so that spheres overlap in postures
+            in which the geometry is apart.
         folders: where ``package://`` paths may start.
 
     Returns:
-        Covers and disabled pairs: links that a joint connects, links whose
-        spheres overlap in all of ``POSTURES`` random postures, of which
-        checking would forbid every posture, and links at most ``NEIGHBOURS``
-        joints apart whose spheres overlap in some of these postures while
-        their geometry touches in none.  The last is sampled, not proved; the
-        file says so in the pair's reason.
+        Covers and disabled pairs, each with its reason: links that a joint
+        connects; links at most ``NEIGHBOURS`` joints apart whose geometry is
+        apart in all postures between the limits, proved by branch and bound, or
+        in ``POSTURES`` random ones, where that proof is not finished; links
+        whose geometry touches in all random postures, or whose spheres overlap
+        in all of them even when refined, of which checking would forbid every
+        posture.
 
     Raises:
         RobotError: the file or a mesh cannot be read.
     """
     urdf = read_urdf(path)
     geometry, visual = collision_geometry(urdf, folders)
-    covers = tuple(
-        _link_cover(link, pieces, inflation, most) for link, pieces in geometry.items()
-    )
+    links = {
+        name: CoveredLink(name, pieces, inflation, most)
+        for name, pieces in geometry.items()
+    }
     robot = Robot.from_urdf(path, tip=tip, tips=tips)
-    balls = {cover.link: cover.balls for cover in covers}
-    disabled = _disabled(robot, urdf, balls, geometry)
-    return FittedSpheres(covers, disabled, tuple(visual))
-
-
-def _link_cover(
-    link: str, pieces: list[Geometry], inflation: float, most: int
-) -> LinkCover:
-    balls: list[tuple[Array, float]] = []
-    bulges, left, triangles = [0.0], 0, 0
-    for piece in pieces:
-        centers, radii, bulge = _fitted(piece, inflation, most)
-        bulges.append(bulge)
-        triangles += len(piece.triangles)
-        left += len(uncovered(piece.vertices, piece.triangles, centers, radii))
-        rotation, origin = piece.pose[:3, :3], piece.pose[:3, 3]
-        placed = centers @ rotation.T + origin
-        balls += [(c, float(r)) for c, r in zip(placed, radii, strict=True)]
-    return LinkCover(link, tuple(balls), max(bulges), left, triangles)
-
-
-def _fitted(piece: Geometry, inflation: float, most: int) -> tuple[Array, Array, float]:
-    if piece.kind == "mesh":
-        fit = cover_solid(
-            piece.vertices, piece.triangles, inflation=inflation, most=most
-        )
-        return fit.centers, fit.radii, fit.inflation
-    if piece.kind == "sphere":
-        return np.zeros((1, 3)), np.array(piece.size), 0.0
-    if piece.kind == "cylinder":
-        cover = cover_cylinder(*piece.size, inflation=inflation, most=most)
-    else:
-        cover = cover_box(piece.size, inflation=inflation, most=most)
-    return cover.centers, np.full(len(cover.centers), cover.radius), cover.inflation
-
-
-def _disabled(
-    robot: Robot,
-    urdf: Urdf,
-    balls: Mapping[str, tuple[tuple[Array, float], ...]],
-    geometry: Mapping[str, list[Geometry]],
-) -> tuple[tuple[str, str, str], ...]:
-    frames = {frame.name: frame for frame in robot.frames}
     adjacent = {frozenset((a, b)) for _, a, b in urdf.joints}
-    rows = [(a, b, "adjacent") for a, b in combinations(balls, 2) if {a, b} in adjacent]
-    spheres = placed_spheres(balls, frames)
-    pairs = checked_pairs(spheres, frozenset(adjacent))
-    sampled = _Sampled(replace(robot, spheres=spheres, self_pairs=pairs))
-    always = f"spheres overlap in each of {POSTURES} random postures"
-    never = f"geometry touches in none of {POSTURES} random postures (sampled)"
-    for first, second in pairs:
-        share = sampled.overlap(first, second)
-        if share == 1.0:
-            rows.append((first, second, always))
-        elif share > 0.0 and sampled.joints_between(first, second) <= NEIGHBOURS:
-            poses = sampled.poses(first, second)
-            if not ever_touch(geometry[first], geometry[second], poses):
-                rows.append((first, second, never))
-    return tuple(rows)
+    seen, fresh = (Sampled(robot, links, POSTURES, SEED + k) for k in range(2))
+    moving = _moving(robot, tuple(links), adjacent)
+    contacts = [PairContact(links[a], links[b], geometry, seen) for a, b in moving]
+    others = [PairContact(links[a], links[b], geometry, fresh) for a, b in moving]
+    apart = _never(robot, contacts, geometry)
+    before = {c.names: (c.overlap.copy(), c.touch.copy()) for c in others}
+    refine(
+        [c for c in contacts if not c.touch.all() and c.names not in apart],
+        extra=extra,
+        share=SHARE,
+    )
+    rows = [(a, b, "adjacent") for a, b in combinations(links, 2) if {a, b} in adjacent]
+    for contact in contacts:
+        why = apart.get(contact.names) or _always(contact)
+        rows += [(*contact.names, why)] if why else []
+    checked = set(moving) - {(a, b) for a, b, _ in rows}
+    for contact in others:
+        contact.look()
+    after = {c.names: (c.overlap, c.touch) for c in others}
+    return FittedSpheres(
+        tuple(link.cover() for link in links.values()),
+        tuple(rows),
+        tuple(visual),
+        self_contact((after[pair] for pair in checked), POSTURES),
+        self_contact((before[pair] for pair in checked), POSTURES),
+    )
 
 
-class _Sampled:
-    """A robot with spheres in ``POSTURES`` random postures.
+def _moving(
+    robot: Robot, links: Sequence[str], adjacent: set[frozenset[str]]
+) -> list[Pair]:
+    """Links on different joints that no joint connects."""
+    joint = {name: robot.frame(name).joint for name in links}
+    return [
+        (a, b)
+        for a, b in combinations(links, 2)
+        if joint[a] != joint[b] and frozenset((a, b)) not in adjacent
+    ]
 
-    Args:
-        robot: the robot.
-    """
 
-    def __init__(self, robot: Robot) -> None:
-        import casadi as ca
+def _never(
+    robot: Robot,
+    contacts: Sequence[PairContact],
+    geometry: Mapping[str, list[Geometry]],
+) -> dict[Pair, str]:
+    """Neighbours of which only spheres overlap, and how that is known."""
+    found: dict[Pair, str] = {}
+    for contact in contacts:
+        near = len(path_joints(robot, *contact.names)) <= NEIGHBOURS
+        if not near or contact.touch.any() or not contact.overlap.any():
+            continue
+        proof = never_touch(robot, *contact.names, geometry)
+        gap = f"{1e3 * proof.gap:.1f} mm"
+        if proof.verdict == "apart":
+            found[contact.names] = f"geometry never touches (proved, least gap {gap})"
+        elif proof.verdict == "undecided":
+            found[contact.names] = (
+                f"geometry touches in none of {POSTURES} random postures"
+                f" (sampled, least gap {gap})"
+            )
+    return found
 
-        self.robot, self.kin = robot, Kinematics(robot)
-        low = np.where(np.isfinite(robot.limits.lower), robot.limits.lower, -np.pi)
-        high = np.where(np.isfinite(robot.limits.upper), robot.limits.upper, np.pi)
-        rng = np.random.default_rng(SEED)
-        self.q = rng.uniform(low, high, (POSTURES, robot.nv))
-        centres = ca.Function("c", [self.kin.q], [self.kin.sphere_centres()])
-        at = np.array(centres.map(POSTURES)(self.q.T)).T
-        self.at: Array = at.reshape(POSTURES, -1, 3)
-        self.radii = np.array([sphere.radius for sphere in robot.spheres])
-        self.of: dict[str, list[int]] = {}
-        for index, sphere in enumerate(robot.spheres):
-            self.of.setdefault(sphere.link, []).append(index)
 
-    def overlap(self, first: str, second: str) -> float:
-        """Share of the postures in which spheres of two links overlap."""
-        i, j = self.of[first], self.of[second]
-        away = np.linalg.norm(self.at[:, i, None] - self.at[:, None, j], axis=3)
-        room = away - self.radii[i][:, None] - self.radii[j]
-        return float(np.mean(room.min(axis=(1, 2)) < 0.0))
-
-    def joints_between(self, first: str, second: str) -> int:
-        """Number of joints that move one of two links relative to the other."""
-        tree = self.robot.tree
-        a, b = (set(tree.ancestors(self.robot.frame(n).joint)) for n in (first, second))
-        return len(a ^ b)
-
-    def poses(self, first: str, second: str) -> list[tuple[Array, Array]]:
-        """Poses (4, 4) of two links' frames in every posture."""
-        import casadi as ca
-
-        both = [self.kin.pose(first), self.kin.pose(second)]
-        evaluate = ca.Function("both", [self.kin.q], both)
-        found = (evaluate(q) for q in self.q)
-        return [(np.array(a), np.array(b)) for a, b in found]
+def _always(contact: PairContact) -> str:
+    """Why a pair cannot be checked, or nothing."""
+    if contact.touch.all():
+        return f"geometry touches in each of {POSTURES} random postures"
+    if contact.overlap.all():
+        return f"spheres overlap in each of {POSTURES} random postures"
+    return ""

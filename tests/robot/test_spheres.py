@@ -2,6 +2,7 @@
 
 import json
 
+import casadi as ca
 import coal
 import numpy as np
 import pytest
@@ -9,11 +10,14 @@ from scipy.spatial import ConvexHull
 
 from rrnn_opt.cli.main import main
 from rrnn_opt.errors import RobotError
-from rrnn_opt.robot import Robot
+from rrnn_opt.robot import Kinematics, Robot, spheres
+from rrnn_opt.robot.apart import levers, never_touch
+from rrnn_opt.robot.ball import smallest_ball
 from rrnn_opt.robot.cover_proof import uncovered
-from rrnn_opt.robot.geometry import load_mesh
-from rrnn_opt.robot.solid_cover import PADDING, Surface, cover_solid, smallest_ball
+from rrnn_opt.robot.geometry import collision_geometry, load_mesh
+from rrnn_opt.robot.solid_cover import PADDING, Surface, cover_solid
 from rrnn_opt.robot.spheres import fit_spheres
+from rrnn_opt.robot.urdf import read_urdf
 
 
 def outward(points):
@@ -147,6 +151,86 @@ def coal_agrees(vertices, triangles, centers, radii):
             d = coal.distance(point, at, shape, ball, request, result)
             best = min(best, d)
         assert best <= 1e-8
+
+
+LINKS = """<robot name="passing"><link name="base"><collision>
+<origin xyz="0 0 0.05"/><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
+</link><link name="mid"><collision><origin xyz="0.45 0 0.15"/><geometry>
+<box size="0.3 0.06 0.06"/></geometry></collision></link>
+<link name="far"><collision><origin xyz="-0.12 0 0"/><geometry>
+<box size="0.2 0.06 0.06"/></geometry></collision></link>
+<joint name="one" type="revolute"><parent link="base"/><child link="mid"/>
+<origin xyz="0 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-2" upper="2" velocity="1" effort="1"/></joint>
+<link name="hub"/><joint name="two" type="revolute">
+<parent link="mid"/><child link="hub"/>
+<origin xyz="0.6 0 {height}"/><axis xyz="0 0 1"/>
+<limit lower="-3" upper="3" velocity="1" effort="1"/></joint>
+<joint name="three" type="revolute"><parent link="hub"/><child link="far"/>
+<axis xyz="{axis}"/><limit lower="-0.02" upper="0.02" velocity="1" effort="1"/></joint>
+</robot>"""
+
+
+def passing(tmp_path, height, axis="0 0 1"):
+    """A link that folds back over another one; by default it stays above it."""
+    path = tmp_path / f"passing_{height}_{axis[0]}.urdf"
+    path.write_text(LINKS.format(height=height, axis=axis))
+    return path
+
+
+def test_spheres_are_added_where_links_pass_each_other(tmp_path, monkeypatch):
+    """The gap of 25 mm is less than the bulges: more spheres leave room for it."""
+    monkeypatch.setattr(spheres, "NEIGHBOURS", 0)
+    monkeypatch.setattr(spheres, "POSTURES", 60)
+    path = passing(tmp_path, 0.235)
+    coarse = fit_spheres(path, tip="far", inflation=0.02, most=4, extra=0)
+    fine = fit_spheres(path, tip="far", inflation=0.02, most=4, extra=24)
+    assert coarse.covered
+    assert fine.covered
+    assert coarse.contact == coarse.before
+    assert fine.before == coarse.before
+    assert fine.contact.geometry == 0.0
+    assert fine.contact.false < 0.8 * coarse.contact.false
+    added = [sum(len(c.balls) for c in f.links) for f in (coarse, fine)]
+    assert 0 < added[1] - added[0] <= 28
+    again = fit_spheres(path, tip="far", inflation=0.02, most=4, extra=24)
+    assert again.to_dict() == fine.to_dict()
+
+
+@pytest.mark.parametrize(("height", "verdict"), [(0.25, "apart"), (0.2, "touching")])
+def test_links_are_proved_apart_or_shown_to_touch(tmp_path, height, verdict):
+    """Boxes of 6 cm whose middles stay 10 cm, or 5 cm, apart along z."""
+    path = passing(tmp_path, height)
+    geometry, _ = collision_geometry(read_urdf(path))
+    robot = Robot.from_urdf(path, tip="far")
+    found = never_touch(robot, "mid", "far", geometry)
+    assert found.verdict == verdict
+    if verdict == "apart":
+        assert found.gap == pytest.approx(height - 0.21, abs=1e-6)
+    assert never_touch(robot, "mid", "far", geometry, most=1).boxes == 1
+
+
+def test_levers_bound_every_change_of_distance(tmp_path):
+    path = passing(tmp_path, 0.22, axis="0 1 0")
+    geometry, _ = collision_geometry(read_urdf(path))
+    robot = Robot.from_urdf(path, tip="far")
+    lever = levers(robot, "base", "far", geometry)
+    kin = Kinematics(robot)
+    poses = ca.Function("p", [kin.q], [kin.pose("base"), kin.pose("far")])
+    points = [geometry[link][0].extremes() for link in ("base", "far")]
+    rng = np.random.default_rng(0)
+    worst = 0.0
+    for _ in range(300):
+        start = rng.uniform(robot.limits.lower, robot.limits.upper)
+        step = 1e-3 * np.eye(robot.nv)[rng.integers(robot.nv)]
+        away = []
+        for q in (start, start + step):
+            pairs = zip(points, (np.array(pose) for pose in poses(q)), strict=True)
+            one, other = (p @ pose[:3, :3].T + pose[:3, 3] for p, pose in pairs)
+            away.append(np.linalg.norm(one[:, None] - other, axis=2))
+        share = np.abs(away[1] - away[0]).max() / (lever @ step)
+        worst = max(worst, share)
+    assert 0.9 < worst <= 1.0 + 1e-9  # it holds and wastes little
 
 
 def test_a_mesh_that_is_not_there_is_named(two, tmp_path):

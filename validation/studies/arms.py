@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
+from dataclasses import asdict
 from importlib import metadata
 from pathlib import Path
 
@@ -45,8 +47,27 @@ def arm(name: str, out: Path) -> Robot:
         fitted = fit_spheres(urdf, tips=tips, inflation=INFLATION, most=MOST)
         if not fitted.covered:
             raise RuntimeError(f"the spheres of {name} do not cover it")
+        contact = {"before": asdict(fitted.before), "after": asdict(fitted.contact)}
         write_text(spheres, json.dumps(fitted.to_dict()))
+        write_text(_contact_file(name, out), json.dumps(contact))
     return Robot.from_urdf(urdf, tips=tips, spheres=spheres)
+
+
+def contacts(out: Path, names: Iterable[str]) -> dict[str, dict[str, dict[str, float]]]:
+    """How often each arm's spheres, and its geometry, touch one another.
+
+    ``SelfContact`` "before" spheres were added and "after"; arms whose spheres were
+    made elsewhere are left out.
+    """
+    return {
+        name: json.loads(_contact_file(name, out).read_text("utf-8"))
+        for name in names
+        if _contact_file(name, out).is_file()
+    }
+
+
+def _contact_file(name: str, out: Path) -> Path:
+    return out / f"{_file_name(name)}_contact.json"
 
 
 def _file_name(name: str) -> str:

@@ -29,14 +29,18 @@ HEADER = (
 
 
 def page(
-    rows: Sequence[Mapping[str, Any]], command: str, limits: tuple[float, float]
+    rows: Sequence[Mapping[str, Any]],
+    command: str,
+    contacts: Mapping[str, Mapping[str, Mapping[str, float]]],
+    limits: tuple[int, float],
 ) -> str:
     """Rows of ``generality.run`` as a page.
 
     Args:
         rows: one a scene.
         command: that made them.
-        limits: of our search and of OMPL's, s on the wall.
+        contacts: self-contact of each arm "before" spheres were added and "after".
+        limits: explorations of our search, and s of processor time of OMPL's.
     """
     arms = list(dict.fromkeys(row["arm"] for row in rows))
     body = [_line([row for row in rows if row["arm"] == name]) for name in arms]
@@ -49,22 +53,71 @@ def page(
         " the reach at random places",
         "and turns; joint goals; spheres fitted by `rrnn spheres`"
         f" (inflation {INFLATION:g} m, at most {MOST} a mesh).",
-        "Solved means found *and* proved; a scene may have no solution.  Times are of"
-        " the solved",
-        "ones, p50 / p95; *all* is search, shortening, retiming and proof."
-        "  OMPL's RRTConnect had",
-        "the same scenes, the same compiled checker and the goal posture, edges checked"
-        " every 1/32 rad;",
-        "its time is that of its checks alone at their cost in C.  Limits:"
-        f" {limits[0]:g} s on the wall for us,",
-        f"{limits[1]:g} s for OMPL, whose checker is called through Python."
-        "  *Neither*: scenes that",
-        "no planner solved.",
+        "Solved means found *and* proved; a scene may have no solution.  Times are",
+        "processor time of the solved ones, p50 / p95; *all* is search, shortening,",
+        "retiming and proof.  OMPL's RRTConnect had the same scenes, the same compiled",
+        "checker and the goal posture, edges checked every 1/32 rad; its time is that",
+        "of its checks alone at their cost in C.  Limits: "
+        f"{limits[0]} explorations for us,",
+        f"{limits[1]:g} s of processor time for OMPL, whose checker is called through",
+        "Python.  *Neither*: scenes that no planner solved.",
         "",
         *("| " + " | ".join(line) + " |" for line in (HEADER, ["---"] * len(HEADER))),
         *("| " + " | ".join(line) + " |" for line in body),
+        "",
+        *_unsolved(rows, arms),
+        *_contacts(contacts),
     ]
     return "\n".join(lines) + "\n"
+
+
+def _unsolved(rows: Sequence[Mapping[str, Any]], arms: Sequence[str]) -> list[str]:
+    """Scenes that only one planner solved, or none."""
+    lines = ["## Scenes that are not solved", ""]
+    for name in arms:
+        mine = [row for row in rows if row["arm"] == name and "peer" in row]
+        lost = [row for row in mine if row["status"] != "solved"]
+        for what, found in (
+            ("only RRTConnect found a path", [r for r in lost if r["peer"]]),
+            ("neither did", [r for r in lost if not r["peer"]]),
+            (
+                "only we did",
+                [r for r in mine if r["status"] == "solved" and not r["peer"]],
+            ),
+        ):
+            scenes = ", ".join(str(row["scene"]) for row in found)
+            if found:
+                lines.append(f"- {name}, {what}: {len(found)} ({scenes})")
+    if len(lines) == 2:
+        lines.append("None.")
+    return [
+        *lines,
+        "",
+        "That no planner found a path does not prove that there is none.",
+    ]
+
+
+def _contacts(contacts: Mapping[str, Mapping[str, Mapping[str, float]]]) -> list[str]:
+    """How often spheres of checked links overlap, and how often they need to."""
+    lines = [
+        "",
+        "## Spheres against meshes",
+        "",
+        "Share of random postures in which checked links touch: by their spheres as"
+        " first fitted, by",
+        "the spheres used here, more of them where links pass each other closely, and"
+        " by the geometry",
+        "(coal).  What exceeds the last is forbidden falsely.",
+        "",
+        "| arm | postures | spheres first | spheres now | geometry |",
+        "| --- | --- | --- | --- | --- |",
+    ]
+    for name, found in contacts.items():
+        before, after = found["before"], found["after"]
+        shares = (before["spheres"], after["spheres"], after["geometry"])
+        cells = " | ".join(f"{share:.1%}" for share in shares)
+        lines.append(f"| {name} | {after['postures']:.0f} | {cells} |")
+    return lines if contacts else []
 
 
 def _line(mine: Sequence[Mapping[str, Any]]) -> tuple[str, ...]:

@@ -14,14 +14,21 @@ ROW |= {"peer_s": 2e-3, "status": "solved", "peer": True}
 
 
 def test_the_page_tells_who_solved_what():
-    lost = {**ROW, "status": "time_limit"}
+    lost = {**ROW, "status": "budget_exhausted"}
     rows = [ROW, {**ROW, "peer": False}, lost, {**lost, "peer": False}]
-    text = page(rows, "command", (2.0, 6.0))
-    (line,) = [line for line in text.splitlines() if line.startswith("| a |")]
+    touch = {"postures": 10, "spheres": 0.3, "geometry": 0.1}
+    contacts = {"a": {"before": touch, "after": {**touch, "spheres": 0.2}}}
+    numbered = [{**row, "scene": k} for k, row in enumerate(rows)]
+    text = page(numbered, "command", contacts, (2000, 6.0))
+    line = next(line for line in text.splitlines() if line.startswith("| a |"))
     cells = [cell.strip() for cell in line.strip("|").split("|")]
     assert cells[3] == "2/4"
-    assert cells[7] == "2 time_limit"
+    assert cells[7] == "2 budget_exhausted"
     assert (cells[8], cells[10]) == ("2/4", "1")
+    assert "- a, only RRTConnect found a path: 1 (2)" in text
+    assert "- a, neither did: 1 (3)" in text
+    assert "- a, only we did: 1 (1)" in text
+    assert "| a | 10 | 30.0% | 20.0% | 10.0% |" in text
 
 
 def test_scenes_are_those_of_their_seed():
@@ -55,4 +62,4 @@ def test_rrt_connect_reaches_a_goal_and_counts_its_checks():
     run = rrt_connect(problem, goal, 10.0)
     assert run.solved
     assert run.checks > 10
-    assert 0.0 < run.seconds < run.wall_s
+    assert 0.0 < run.seconds < run.cpu_s
