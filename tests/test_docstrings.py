@@ -81,6 +81,17 @@ def kept_secret(house):
                 yield f"{function.name}: {name}"
 
 
+def foreign(house):
+    """Errors outside the package's own tree that an exported name raises itself."""
+    exported = {(module, name) for module, name, _ in public(house)}
+    for function, _, _ in every(house):
+        if (function.module, function.owner or function.node.name) in exported:
+            for name in sorted(house.raises(function)):
+                names = kin(house, function, name)
+                if "Exception" in names and "RrnnError" not in names:
+                    yield f"{function.name}: {name}"
+
+
 def misnamed(house):
     """Parameters that a list of arguments leaves out, and entries that are none."""
     for function, _, _ in every(house):
@@ -100,6 +111,10 @@ def test_what_is_documented_can_be_raised(house):
 
 def test_what_is_raised_is_documented(house):
     assert list(kept_secret(house)) == []
+
+
+def test_what_the_rooms_export_raises_errors_of_the_package_only(house):
+    assert list(foreign(house)) == []
 
 
 def test_listed_arguments_are_the_parameters(house):
@@ -137,7 +152,7 @@ def _root(x):
 ERRORS = (
     "class RrnnError(Exception):\n    pass\n\nclass FarError(RrnnError):\n    pass\n"
 )
-CHECKS = (silent, never_raised, kept_secret, misnamed)
+CHECKS = (silent, never_raised, kept_secret, foreign, misnamed)
 
 
 def found_in(text):
@@ -158,7 +173,7 @@ def found_in(text):
         ("RrnnError: x", "FarError: x", {never_raised, kept_secret}),
         (r'raise RrnnError\("x is negative"\)', "return None", {never_raised}),
         (r"return _root\(x\)", "return x", {never_raised}),
-        ("raise RrnnError", "raise KeyError", {kept_secret, never_raised}),
+        ("raise RrnnError", "raise KeyError", {kept_secret, never_raised, foreign}),
         (
             r"    return _root\(x\)",
             "    try:\n        return _root(x)\n    except RrnnError:\n        pass",

@@ -77,7 +77,7 @@ def active_set_source(
         for name, size in zip("NPM", sizes, strict=True)
     ]
     lines += [f"#define RRNN_QP_{key} RRNN_C({x!r})" for key, x in numbers.items()]
-    names = ["active_set.h"]
+    names = ["active_rows.h", "active_set.h"]
     if proximal > 0.0:
         lines.append(f"#define RRNN_QP_PROXIMAL RRNN_C({proximal!r})")
         names.append("proximal.h")

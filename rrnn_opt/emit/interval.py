@@ -1,6 +1,6 @@
 """A tape as a C kernel over intervals, many boxes at once.
 
-The kernel rounds outwards (``support/interval.h``) and takes boxes as columns:
+The kernel rounds outwards (``support/interval*.h``) and takes boxes as columns:
 one row of lower and one of upper ends for every input element.  It is compiled
 for the host only; what runs on a robot is :mod:`rrnn_opt.emit.c99`.
 """
@@ -76,7 +76,8 @@ def interval_source(tape: Tape, name: str) -> str:
         RrnnError: ``name`` is not a C identifier.
     """
     body = "\n".join(f"        {line}" for line in _body(tape))
-    head = "#include <math.h>\n#include <stddef.h>\n" + support_text("interval.h")
+    parts = [support_text(f"interval{part}.h") for part in ("", "_truth", "_sincos")]
+    head = "\n".join(["#include <math.h>\n#include <stddef.h>", *parts])
     return _KERNEL.format(support=head, name=require_identifier(name), body=body)
 
 

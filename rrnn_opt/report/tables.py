@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from rrnn_opt.errors import RrnnError
+
 PASS, FAIL = "PASS", "FAIL"
 
 
@@ -22,11 +24,11 @@ def table(
         Lines joined by newlines, without a last newline.
 
     Raises:
-        ValueError: a row has not as many cells as the header.
+        RrnnError: a row has not as many cells as the header.
     """
     cells = [[cell_text(c) for c in row] for row in rows]
     if any(len(row) != len(header) for row in cells):
-        raise ValueError(f"every row needs {len(header)} cells")
+        raise RrnnError(f"every row needs {len(header)} cells")
     columns = list(zip(header, *cells, strict=True))
     widths = [max(len(cell) for cell in column) for column in columns]
     right = [

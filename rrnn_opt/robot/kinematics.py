@@ -16,7 +16,7 @@ from functools import cached_property
 import casadi as ca
 import numpy as np
 
-from rrnn_opt.errors import ShapeError
+from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.tree import BASE, PRISMATIC, Array, Frame
 
@@ -139,10 +139,10 @@ class Kinematics:
 
         Raises:
             RobotError: there is no such frame.
-            ValueError: ``kind`` is neither of the two.
+            RrnnError: ``kind`` is neither of the two.
         """
         if kind not in (POSITION, POSE):
-            raise ValueError(f"kind must be '{POSITION}' or '{POSE}', not '{kind}'")
+            raise RrnnError(f"kind must be '{POSITION}' or '{POSE}', not '{kind}'")
         full = self._columns(self.robot.frame(frame), self._pose(frame)[1])
         return full[:3, :] if kind == POSITION else full
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from rrnn_opt.study.cases import Case, Row, Study, measured
 from rrnn_opt.study.processes import WorkerError, lost_row
-from rrnn_opt.study.study import Case, Row, Study, measured
 
 PATIENCE_S = 30.0
 

@@ -10,7 +10,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from rrnn_opt.study.study import Case, Study, plain
+from rrnn_opt.study.cases import Case, Study, plain
 
 PACKAGES = ("numpy", "scipy", "casadi", "qpsolvers", "osqp", "daqp", "toppra", "pin")
 """Packages whose versions enter every identity."""

@@ -16,7 +16,7 @@ from multiprocessing.connection import Connection, wait
 from typing import Any
 
 from rrnn_opt.errors import RrnnError
-from rrnn_opt.study.study import Case, Row, Study, measured
+from rrnn_opt.study.cases import Case, Row, Study, measured
 from rrnn_opt.study.threads import one_thread
 
 

@@ -8,10 +8,11 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+from rrnn_opt.study.cases import TIMINGS, Case, Row, Study, Workers, once
 from rrnn_opt.study.identity import PACKAGES, identity, surroundings
 from rrnn_opt.study.journal import sealed
 from rrnn_opt.study.store import Store, set_aside
-from rrnn_opt.study.study import TIMINGS, Case, Row, Study, Workers, local, once
+from rrnn_opt.study.study import local
 
 Watch = Callable[[int, int], None]
 
@@ -82,7 +83,7 @@ class Results:
             progress: told (finished, all) after each case.
 
         Raises:
-            ValueError: two cases have the same key.
+            RrnnError: two cases have the same key.
             OSError: the disk is full, say; what was finished before is kept.
         """
         total = sum(1 for _ in once(study))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from rrnn_opt.errors import RrnnError
+
 
 def wilson(successes: int, n: int, *, confidence: float = 0.95) -> tuple[float, float]:
     """Wilson's score interval of successes / n.
@@ -15,10 +17,10 @@ def wilson(successes: int, n: int, *, confidence: float = 0.95) -> tuple[float, 
         Lower and upper limit, both in [0, 1].
 
     Raises:
-        ValueError: successes is not between 0 and n.
+        RrnnError: successes is not between 0 and n.
     """
     if not 0 <= successes <= n:
-        raise ValueError(f"{successes} successes in {n} cases")
+        raise RrnnError(f"{successes} successes in {n} cases")
     if n == 0:
         return 0.0, 1.0
     from scipy.stats import binomtest

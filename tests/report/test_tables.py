@@ -1,5 +1,6 @@
 import pytest
 
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.report.tables import check_line, table
 
 
@@ -19,7 +20,7 @@ def test_a_cell_stays_on_its_line():
 
 
 def test_a_row_of_the_wrong_length_is_refused():
-    with pytest.raises(ValueError, match="2 cells"):
+    with pytest.raises(RrnnError, match="2 cells"):
         table(("a", "b"), [("only one",)])
 
 

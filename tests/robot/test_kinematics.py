@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rrnn_opt.errors import RobotError, ShapeError
+from rrnn_opt.errors import RobotError, RrnnError, ShapeError
 from rrnn_opt.robot import Frame, JointTree, Kinematics, Limits, Robot
 from rrnn_opt.robot.builtin import BUILTIN
 
@@ -166,7 +166,7 @@ def test_wrong_arguments_are_named():
     kin = Kinematics(Robot.builtin("planar3"))
     with pytest.raises(RobotError, match="no frame 'nowhere'"):
         kin.position("nowhere")
-    with pytest.raises(ValueError, match="kind"):
+    with pytest.raises(RrnnError, match="kind"):
         kin.jacobian(kind="poses")
     with pytest.raises(ShapeError, match="qd"):
         kin.jacobian_dot(None, ca.SX.sym("qd", 2))

@@ -4,7 +4,7 @@ import sys
 import numpy as np
 import pytest
 
-from rrnn_opt.errors import InfeasibleQpError
+from rrnn_opt.errors import InfeasibleQpError, RrnnError
 from rrnn_opt.study import Case, generator, rows, run
 
 
@@ -97,7 +97,7 @@ def test_rows_come_one_by_one():
 
 
 def test_two_cases_of_one_key_are_refused():
-    with pytest.raises(ValueError, match="same key"):
+    with pytest.raises(RrnnError, match="same key"):
         run(Draws("aa"))
 
 

@@ -2,6 +2,7 @@ import math
 
 import pytest
 
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.study import wilson
 
 
@@ -28,7 +29,7 @@ def test_no_cases_say_nothing():
 
 @pytest.mark.parametrize(("k", "n"), [(-1, 3), (4, 3)])
 def test_impossible_counts_are_refused(k, n):
-    with pytest.raises(ValueError, match="successes"):
+    with pytest.raises(RrnnError, match="successes"):
         wilson(k, n)
 
 

@@ -1,7 +1,7 @@
 """The sine and cosine of interval kernels are within 2^-49: a proof with balls.
 
 ``python -m rrnn_opt.validation.studies.sincos_bound [--balls N]`` proves the
-bound ``RRNN_SINCOS`` of ``emit/support/interval.h`` for |x| <= 1e5, in any
+bound ``RRNN_SINCOS`` of ``emit/support/interval_sincos.h`` for |x| <= 1e5, in any
 rounding mode: every operation is taken to be off by up to 2^-52 of its result.
 
 Reduction.  kd is an integer with |kd - 2 x / pi| <= 1/2 + 4e-11: the product and

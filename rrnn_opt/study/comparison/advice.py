@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from rrnn_opt.study.cases import Row
 from rrnn_opt.study.comparison.catalogue import GROUPS
 from rrnn_opt.study.comparison.profiles import TimeTable, time_table
 from rrnn_opt.study.comparison.summary import summaries
-from rrnn_opt.study.study import Row
 
 SHOWN = 4
 

@@ -16,10 +16,10 @@ import numpy as np
 
 from rrnn_opt.solving import Instance, Solution, Solver, Status
 from rrnn_opt.solving.residual import NOT_JUDGED
+from rrnn_opt.study.cases import Case
 from rrnn_opt.study.comparison.catalogue import problem_set
 from rrnn_opt.study.comparison.entrants import Entrant
 from rrnn_opt.study.comparison.problem_set import ProblemSet
-from rrnn_opt.study.study import Case
 
 PASSES = 5
 BUDGET_S = 20.0

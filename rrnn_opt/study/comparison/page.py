@@ -13,6 +13,7 @@ import numpy as np
 from rrnn_opt.report import write_bytes, write_text
 from rrnn_opt.report.profiles import draw_profiles
 from rrnn_opt.report.simple_page import html_page
+from rrnn_opt.study.cases import Row
 from rrnn_opt.study.comparison.advice import advice
 from rrnn_opt.study.comparison.measure import Comparison
 from rrnn_opt.study.comparison.page_tables import (
@@ -25,7 +26,6 @@ from rrnn_opt.study.comparison.page_tables import (
 from rrnn_opt.study.comparison.profiles import TimeTable, time_table
 from rrnn_opt.study.comparison.statistics import SHIFT_US
 from rrnn_opt.study.comparison.summary import TOLERANCE, summaries
-from rrnn_opt.study.study import Row
 
 _ABOUT = f"""\
 Every answer is judged here, by its absolute KKT residuals (primal, dual, gap,

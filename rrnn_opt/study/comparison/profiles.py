@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from rrnn_opt.study.cases import Row
 from rrnn_opt.study.comparison.problem_set import INFEASIBLE
 from rrnn_opt.study.comparison.statistics import (
     Array,
@@ -15,7 +16,6 @@ from rrnn_opt.study.comparison.statistics import (
     performance_profile,
 )
 from rrnn_opt.study.comparison.summary import solves
-from rrnn_opt.study.study import Row
 
 RATIOS = np.geomspace(1.0, 1000.0, 200)
 BUDGETS_US = np.geomspace(1.0, 1e6, 240)

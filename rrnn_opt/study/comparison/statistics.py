@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rrnn_opt.errors import RrnnError
+
 Array = NDArray[np.float64]
 
 PERCENTILES = {"p50": 50.0, "p95": 95.0, "p99": 99.0, "p999": 99.9, "max": 100.0}
@@ -20,11 +22,11 @@ def shifted_geometric_mean(values: ArrayLike, shift: float) -> float:
         shift: positive; in the unit of the values.
 
     Raises:
-        ValueError: there is no value, or one is negative or no number.
+        RrnnError: there is no value, or one is negative or no number.
     """
     given = np.asarray(values, dtype=np.float64)
     if given.size == 0 or not (given >= 0.0).all() or shift <= 0.0:
-        raise ValueError("a shifted geometric mean needs values >= 0 and a shift > 0")
+        raise RrnnError("a shifted geometric mean needs values >= 0 and a shift > 0")
     return float(np.exp(np.mean(np.log(given + shift))) - shift)
 
 

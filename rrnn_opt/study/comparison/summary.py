@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from rrnn_opt.study.cases import Row
 from rrnn_opt.study.comparison.problem_set import INFEASIBLE
 from rrnn_opt.study.comparison.statistics import (
     SHIFT_US,
@@ -15,7 +16,6 @@ from rrnn_opt.study.comparison.statistics import (
     shifted_geometric_mean,
     spread,
 )
-from rrnn_opt.study.study import Row
 from rrnn_opt.study.wilson import wilson
 
 TOLERANCE = 1e-6

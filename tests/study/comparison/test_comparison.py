@@ -13,6 +13,7 @@ from rrnn_opt.solving.parts import Dense, handed
 from rrnn_opt.solving.proximal import PiqpSession, ProxqpSession
 from rrnn_opt.solving.residual import relative_residual
 from rrnn_opt.study import Results, environment, wilson
+from rrnn_opt.study.cases import Row
 from rrnn_opt.study.comparison import Comparison, chosen, summaries, write_report
 from rrnn_opt.study.comparison.advice import advice
 from rrnn_opt.study.comparison.drawn import drawn_set
@@ -21,7 +22,6 @@ from rrnn_opt.study.comparison.measure import measured_set
 from rrnn_opt.study.comparison.motions import motion_set
 from rrnn_opt.study.comparison.problem_set import ProblemSet
 from rrnn_opt.study.comparison.profiles import time_table
-from rrnn_opt.study.study import Row
 
 
 def first_of(name, count):

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.study.comparison.statistics import (
     data_profile,
     percentiles,
@@ -36,7 +37,7 @@ def test_shifted_geometric_mean_lies_between_the_geometric_and_the_plain_mean(v,
 
 @pytest.mark.parametrize(("values", "shift"), [([], 1), ([-1], 1), ([1], 0)])
 def test_shifted_geometric_mean_refuses_what_has_none(values, shift):
-    with pytest.raises(ValueError, match="shifted geometric mean"):
+    with pytest.raises(RrnnError, match="shifted geometric mean"):
         shifted_geometric_mean(values, shift)
 
 
