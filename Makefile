@@ -1,4 +1,4 @@
-# make demo | test | check | bench | soak | docs | clean
+# make demo | test | check | pythons | bench | soak | docs | clean
 # Everything happens in .venv here; it is made when it is missing.
 
 PYTHON ?= python3
@@ -9,7 +9,7 @@ PIP := $(PY) -m pip --disable-pip-version-check install --quiet
 RRNN := $(PY) -m rrnn_opt.cli.start
 
 .DELETE_ON_ERROR:
-.PHONY: help demo test check dev bench soak docs clean
+.PHONY: help demo test check pythons dev bench soak docs clean
 
 help:
 	@sed -n 's/^# make/make/p' Makefile
@@ -22,6 +22,9 @@ test: $(VENV)/test.stamp
 
 check:
 	.ci/run
+
+pythons: $(VENV)/dev.stamp
+	.ci/pythons
 
 dev: $(VENV)/dev.stamp
 
@@ -37,7 +40,7 @@ docs: $(VENV)/dev.stamp
 	@echo docs/_build/html/index.html
 
 clean:
-	rm -rf build docs/_build dist runs rrnn_opt.egg-info .pytest_cache .ruff_cache .mypy_cache \
+	rm -rf build docs/_build dist runs .pythons rrnn_opt.egg-info .pytest_cache .ruff_cache .mypy_cache \
 	  .hypothesis .import_linter_cache $(VENV)/demo.stamp $(VENV)/test.stamp \
 	  $(VENV)/dev.stamp
 	find . -name __pycache__ -not -path './$(VENV)/*' -prune -exec rm -rf {} +

@@ -66,6 +66,8 @@ def test_every_operation_agrees_with_casadi(row):
     make = build.get(row.name) or (lambda: getattr(ca, row.name)(*arguments))
     fn = ca.Function("f", [a, b], [make()], ["a", "b"], ["r"])
     tape = Tape.of(fn)
+    if row.name == "twice" and (2 * a).op() == ca.OP_MUL:
+        pytest.skip("CasADi before 3.8 writes 2 a as a product")
     assert row.name in tape.operations
     grid = [0.0, 0.25, 0.5, 1.0, 0.75, -0.5, -1.0, 2.0]
     if row.name in ("acos", "asin"):
