@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 from typing import Any
 
 from rrnn_opt.cli.output import Output
 from rrnn_opt.errors import DocumentError
+from rrnn_opt.files import read_json
 
 HELP = "judge a plan result or a claim's certificate again"
 
@@ -56,13 +56,7 @@ def read(path: str) -> dict[str, Any]:
     Raises:
         DocumentError: it cannot be read, or holds something else.
     """
-    try:
-        with open(path, encoding="utf-8") as file:
-            document = json.load(file)
-    except OSError as error:
-        raise DocumentError(path, f"cannot be read ({error.strerror})") from error
-    except (ValueError, RecursionError) as error:
-        raise DocumentError(path, f"is not JSON ({error})") from error
+    document = read_json(path)
     if not isinstance(document, dict):
         raise DocumentError(path, "is JSON, but not an object")
     return document

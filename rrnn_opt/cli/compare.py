@@ -57,7 +57,7 @@ def run(args: argparse.Namespace, out: Output) -> int:
     study, notes = chosen_study(args)
     if args.export is not None:
         return _export(study, folder(args.export), out)
-    target = folder(args.out.format("compare"))
+    target = folder(args.out.replace("{}", "compare"))
     rows = measured(args, study, target)
     paths = _report(args, study, rows, target, notes)
     return _said(out, study, rows, paths)

@@ -42,7 +42,7 @@ def run(args: argparse.Namespace, out: Output) -> int:
 
     pin_threads()
     names = _names(args.part)
-    target = folder(args.out.format("reproduce"))
+    target = folder(args.out.replace("{}", "reproduce"))
     parts, damaged = _run(args, names, target, out)
     files = _written(args, parts, damaged, target)
     cells = [dict(cell) for part in parts for cell in part.cells]

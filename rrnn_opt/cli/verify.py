@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import runpy
 from collections.abc import Mapping, Sequence
 from inspect import signature
 from pathlib import Path
@@ -14,6 +13,7 @@ from rrnn_opt.cli import named
 from rrnn_opt.cli.arguments import seed
 from rrnn_opt.cli.folders import folder
 from rrnn_opt.cli.output import Output, UsageError
+from rrnn_opt.files import from_python
 
 HELP = "settle claims: PROVED, REFUTED with a witness, HOLDS_UNDER, or UNKNOWN"
 OPEN = ("REFUTED", "UNKNOWN")
@@ -97,14 +97,15 @@ def _printed(robot: str, ids: list[str], *, everything: bool) -> list[Any]:
 
 def _own(path: str) -> list[Any]:
     """The claims of a user's file."""
-    from rrnn_opt.verification import ClaimCase, Remark
+    from rrnn_opt.claim import Claim
+    from rrnn_opt.decay import DecayClaim
+    from rrnn_opt.verification import ClaimCase, Proof, Remark
 
-    try:
-        found = runpy.run_path(path)["claims"]()
-    except KeyError:
-        raise UsageError(f"{path} defines no function claims()") from None
-    except OSError as error:
-        raise UsageError(f"{path}: cannot be read ({error.strerror})") from error
+    found = from_python(path, "claims")
+    for entry in found:
+        if not isinstance(entry, ClaimCase | Remark | Claim | DecayClaim | Proof):
+            kind = type(entry).__name__
+            raise UsageError(f"{path}: claims() gives claims, not a {kind}")
     return [x if isinstance(x, ClaimCase | Remark) else ClaimCase(x) for x in found]
 
 
@@ -134,11 +135,11 @@ def _row(entry: Any, target: Path | None, number: int) -> tuple[dict[str, Any], 
 
 
 def _writer(target: Path) -> Any:
-    from rrnn_opt.report import write_text
+    from rrnn_opt.report import file_name, write_text
 
     def write(name: str, certificate: Mapping[str, Any]) -> str:
         text = json.dumps(certificate, indent=1, allow_nan=False) + "\n"
-        return str(write_text(target / f"{name}.json", text))
+        return str(write_text(target / f"{file_name(name)}.json", text))
 
     return write
 

@@ -6,20 +6,23 @@ import contextlib
 import hashlib
 import json
 import os
+import re
 import shutil
 import time
 import uuid
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from rrnn_opt.embedding.words import require_prefix
 from rrnn_opt.errors import RrnnError
 
 KIND = "rrnn_opt C package"
 MANIFEST = "MANIFEST.json"
 STALE = 3600.0
 """Age in seconds from which a draft is nobody's any more."""
+_PLAIN = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}")
 
 
 @dataclass(frozen=True)
@@ -29,10 +32,19 @@ class Package:
     Attributes:
         prefix: of every exported name; also the folder's name.
         files: text by relative path, MANIFEST.json among them.
+
+    Raises:
+        RrnnError: the prefix is no C name, or a path leads out of the folder.
     """
 
     prefix: str
     files: Mapping[str, str]
+
+    def __post_init__(self) -> None:
+        require_prefix(self.prefix)
+        for path in self.files:
+            if not _inside(path):
+                raise RrnnError(f"{path[:80]!a} is no name of a file of a package")
 
     @property
     def manifest(self) -> dict[str, Any]:
@@ -62,6 +74,7 @@ class Package:
         draft = parent / f".{self.prefix}.{uuid.uuid4().hex}"
         try:
             stale = _require_ours(target) - set(self.files)
+            _require_no_links(target, [*self.files, *stale])
             parent.mkdir(parents=True, exist_ok=True)
             _fill(draft, self.files)
             _move(draft, target, stale)
@@ -102,7 +115,7 @@ def _require_ours(target: Path) -> set[str]:
     try:
         manifest = json.loads((target / MANIFEST).read_text("utf-8"))
         listed = set(manifest["files"]) if manifest["kind"] == KIND else None
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         listed = None
     if listed is None:
         raise RrnnError(
@@ -113,8 +126,24 @@ def _require_ours(target: Path) -> set[str]:
 
 
 def _inside(path: str) -> bool:
-    parts = Path(path).parts
-    return bool(parts) and ".." not in parts and not Path(path).is_absolute()
+    """Whether a relative path of plain names stays in its folder."""
+    parts = path.split("/") if isinstance(path, str) else []
+    return bool(parts) and all(_PLAIN.fullmatch(part) for part in parts)
+
+
+def _require_no_links(target: Path, names: Iterable[str]) -> None:
+    """Refuse to write through a folder that is a link to another one.
+
+    Raises:
+        RrnnError: one is.
+    """
+    for name in names:
+        for folder in list(Path(name).parents)[:-1]:
+            if (target / folder).is_symlink():
+                raise RrnnError(
+                    f"'{target / folder}' is a link to another folder; remove it, or"
+                    " choose another --out or prefix"
+                )
 
 
 def _fill(folder: Path, files: Mapping[str, str]) -> None:

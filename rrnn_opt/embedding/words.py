@@ -34,10 +34,11 @@ def require_prefix(prefix: str) -> str:
     Raises:
         RrnnError: they cannot.
     """
-    legal = re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,30}", prefix, re.ASCII)
+    word = prefix if isinstance(prefix, str) else ""
+    legal = re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,30}", word, re.ASCII)
     if not legal or prefix.lower() in HEADERS:
         raise RrnnError(
-            f"prefix {prefix!r}: use a letter, then up to 30 letters, digits or"
-            " underscores, and not the name of a standard header"
+            f"prefix {ascii(prefix)[:80]}: use a letter, then up to 30 letters, digits"
+            " or underscores, and not the name of a standard header"
         )
     return require_identifier(prefix)

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.errors import ProblemError, RobotError
+from rrnn_opt.files import read_json
 from rrnn_opt.planning.attached import Attached, attached_from_list, with_attached
 from rrnn_opt.planning.goals import Goal, JointGoal, goal_name, goals_from_data
-from rrnn_opt.planning.reading import read_json
 from rrnn_opt.robot.builtin import BUILTIN
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.scene import fields
@@ -175,7 +175,7 @@ def _file(base: Path, ref: str, field: str) -> Path:
     path = base / ref
     try:
         found = path.is_file()
-    except OSError:  # a name that no file can have
+    except (OSError, ValueError):  # a name that no file can have
         found = False
     if not found:
         raise ProblemError(field, f"there is no file {fields.shown(str(path), 200)}")

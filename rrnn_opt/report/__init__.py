@@ -5,7 +5,7 @@ is computed that a verdict could rest on.
 """
 
 from rrnn_opt.report.claims import claims_html, claims_markdown, claims_table
-from rrnn_opt.report.files import write_bytes, write_text
+from rrnn_opt.report.files import file_name, write_bytes, write_text
 from rrnn_opt.report.page import write_page
 from rrnn_opt.report.picture import draw_plan
 from rrnn_opt.report.plan_files import write_plan
@@ -21,6 +21,7 @@ __all__ = [
     "draw_plan",
     "draw_region",
     "draw_tracking",
+    "file_name",
     "table",
     "write_bytes",
     "write_page",

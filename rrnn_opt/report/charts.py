@@ -96,7 +96,7 @@ def _numbered(count: int) -> list[str]:
 
 def _literal(name: object, longest: int = LONGEST) -> str:
     """A short name that matplotlib takes neither for a formula nor for hidden."""
-    text = str(name)
+    text = str(name).encode("utf-8", "replace").decode()
     text = (
         text
         if len(text) <= longest

@@ -14,6 +14,7 @@ from rrnn_opt.report.camera import View, best_view
 from rrnn_opt.report.clearance import Approach, sampled_clearance
 from rrnn_opt.report.mesh import Mesh, merged
 from rrnn_opt.report.motion import Motion, motion_of
+from rrnn_opt.report.plan_form import require_plan
 from rrnn_opt.report.pose import joint_frames, sphere_centres, tip_positions
 from rrnn_opt.report.stage import Workspace, drawn, obstacles_of, workspace
 from rrnn_opt.report.traces import tool_traces
@@ -70,13 +71,11 @@ def drawing_of(document: dict[str, Any]) -> Drawing:
         DocumentError: the document has no robot or problem, or they are not
             of the form of a plan result.
     """
-    for key in ("robot", "problem"):
-        if not isinstance(document.get(key), dict):
-            raise DocumentError("plan", f"there is no '{key}' in it to draw")
+    require_plan(document)
     try:
         return _drawing(document)
-    except (KeyError, IndexError, TypeError, ValueError) as error:
-        message = f"not of the form of a plan result: {error!r}"
+    except (LookupError, TypeError, ValueError, AttributeError, OverflowError) as error:
+        message = f"not of the form of a plan result: {error!r}"[:300]
         raise DocumentError("plan", message) from error
 
 

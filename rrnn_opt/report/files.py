@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import os
 import re
 import tempfile
@@ -56,7 +57,7 @@ def write_text(path: str | Path, text: str) -> Path:
     Raises:
         OSError: as there.
     """
-    return write_bytes(path, text.encode("utf-8"))
+    return write_bytes(path, text.encode("utf-8", "replace"))
 
 
 def _sweep(target: Path) -> None:
@@ -68,6 +69,14 @@ def _sweep(target: Path) -> None:
                 with contextlib.suppress(OSError):
                     if time.time() - entry.stat().st_mtime > STALE:
                         os.unlink(entry)
+
+
+def file_name(name: str) -> str:
+    """A name of the user's as the stem of a file: no path, and not too long."""
+    plain = re.sub(r"[^A-Za-z0-9_.+-]", "_", name).strip(".")[:80]
+    if plain == name:
+        return name
+    return f"{plain}_{hashlib.sha256(name.encode('utf-8', 'replace')).hexdigest()[:8]}"
 
 
 def _umask() -> int:

@@ -200,12 +200,12 @@ def _tint(role: str, colour: Any) -> Any:
 
 
 def _title(figure: Any, document: dict[str, Any], drawing: Drawing) -> None:
-    name = str(document["robot"].get("name", "robot"))
+    name = _drawable(document["robot"].get("name", "robot"))
     proof = document.get("certificate") or {}
-    said = [str(document.get("status", "")), str(document.get("planner", ""))]
+    said = [_drawable(document.get(key, "")) for key in ("status", "planner")]
     for key in ("collision_free", "limits"):
         if proof.get(key):
-            said.append(f"{key.replace('_', ' ')}: {proof[key]}")
+            said.append(f"{key.replace('_', ' ')}: {_drawable(proof[key])}")
     figure.text(
         0.02, 0.955, name, fontsize=15, weight="bold", color=INK, parse_math=False
     )
@@ -218,6 +218,11 @@ def _title(figure: Any, document: dict[str, Any], drawing: Drawing) -> None:
         parse_math=False,
     )
     draw_key(figure, drawing)
+
+
+def _drawable(value: object, longest: int = 60) -> str:
+    """A short text that a font can draw."""
+    return str(value)[:longest].encode("utf-8", "replace").decode()
 
 
 def _places(count: int) -> list[tuple[float, float, float, float]]:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.placement import compose, shift, turn
 from rrnn_opt.robot.tree import Array
-from rrnn_opt.robot.urdf import SIZES, Urdf
+from rrnn_opt.robot.urdf import SIZES, Urdf, floats, read_primitive
 
 SIDES = 32
 """Of the prism about a cylinder, which is 0.5 % wider."""
@@ -94,22 +94,26 @@ def collision_geometry(
             elements = link.findall("visual")
             visual += [name] if elements else []
         if elements:
-            found[name] = [_geometry(e, urdf, folders) for e in elements]
+            try:
+                found[name] = [_geometry(e, urdf, folders) for e in elements]
+            except (KeyError, ValueError) as error:
+                message = f"geometry of link '{name}' is malformed: {error}"
+                raise RobotError(urdf.path, message) from None
     return found, visual
 
 
 def _geometry(element: ET.Element, urdf: Urdf, folders: tuple[Path, ...]) -> Geometry:
     pose = _pose(element.find("origin"))
     none, faces = np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
-    for kind, keys in SIZES.items():
+    for kind in SIZES:
         shape = element.find(f"geometry/{kind}")
         if shape is not None:
-            words = " ".join(shape.attrib[key] for key in keys).split()
-            return Geometry(kind, tuple(map(float, words)), pose, none, faces)
+            primitive = read_primitive(element)
+            return Geometry(kind, primitive.size, pose, none, faces)
     mesh = element.find("geometry/mesh")
     if mesh is None or "filename" not in mesh.attrib:
         raise RobotError(urdf.path, "a geometry is neither a mesh nor a known shape")
-    scale = np.array([float(x) for x in mesh.get("scale", "1 1 1").split()])
+    scale = np.array(floats(mesh.get("scale", "1 1 1"), 3))
     path = mesh_path(mesh.attrib["filename"], Path(urdf.path), folders)
     vertices, triangles = load_mesh(path, scale)
     return Geometry("mesh", (), pose, vertices, triangles)
@@ -117,10 +121,8 @@ def _geometry(element: ET.Element, urdf: Urdf, folders: tuple[Path, ...]) -> Geo
 
 def _pose(origin: ET.Element | None) -> Array:
     given = {} if origin is None else origin.attrib
-    x, y, z = (float(v) for v in given.get("xyz", "0 0 0").split())
-    roll, pitch, yaw = (
-        math.degrees(float(v)) for v in given.get("rpy", "0 0 0").split()
-    )
+    x, y, z = floats(given.get("xyz", "0 0 0"), 3)
+    roll, pitch, yaw = map(math.degrees, floats(given.get("rpy", "0 0 0"), 3))
     return compose(shift(x, y, z), turn("z", yaw), turn("y", pitch), turn("x", roll))
 
 
@@ -140,8 +142,11 @@ def mesh_path(reference: str, urdf: Path, folders: tuple[Path, ...]) -> Path:
         within = Path(*Path(inside).parts[1:])
         candidates = [root / part for root in roots for part in (inside, within)]
     for candidate in candidates:
-        if candidate.is_file():
-            return candidate
+        try:
+            if candidate.is_file():
+                return candidate
+        except (OSError, ValueError):  # a name that no file can have
+            continue
     message = f"there is no mesh '{reference}'; name its package's parent folder"
     raise RobotError(str(urdf), f"{message} with --package-dir")
 

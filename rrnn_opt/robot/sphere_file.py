@@ -9,7 +9,6 @@ do not sit on the same joint are a self pair, minus the disabled ones.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -18,11 +17,16 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.errors import RobotError, ShapeError
+from rrnn_opt.errors import DocumentError, RobotError, ShapeError
+from rrnn_opt.files import read_json
 from rrnn_opt.robot.placement import apply
 from rrnn_opt.robot.tree import Array, Frame, Sphere, frozen
 
 LinkPair = frozenset[str]
+MOST = 5_000
+"""Spheres of a robot that are accepted at most."""
+LARGEST = 1e6
+"""Largest coordinate and radius, m."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +53,9 @@ class SphereFile:
             str(link): tuple(_ball(entry) for entry in entries)
             for link, entries in data["links"].items()
         }
+        count = sum(map(len, links.values()))
+        if count > MOST:
+            raise ValueError(f"{count} spheres; at most {MOST} are accepted")
         listed = data.get("disabled_self_collision_pairs")
         if listed is None:
             return SphereFile(links, None)
@@ -68,8 +75,8 @@ def read_sphere_file(path: str | Path) -> SphereFile:
         RobotError: it cannot be read, or an entry makes no sense.
     """
     try:
-        data = json.loads(Path(path).read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+        data = read_json(path)
+    except DocumentError as error:
         raise RobotError(str(path), f"not a readable sphere file: {error}") from None
     try:
         return SphereFile.from_data(data)
@@ -81,7 +88,7 @@ def read_sphere_file(path: str | Path) -> SphereFile:
 def _ball(entry: Mapping[str, Any]) -> tuple[Array, float]:
     center = frozen(entry["center"], (3,), "center")
     radius = float(entry["radius"])
-    if not (np.all(np.isfinite(center)) and np.isfinite(radius) and radius > 0.0):
+    if not (np.all(np.abs(center) <= LARGEST) and 0.0 < radius <= LARGEST):
         raise ValueError("a sphere needs a finite center and a positive radius")
     return center, radius
 

@@ -11,9 +11,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from rrnn_opt.errors import RobotError
+from rrnn_opt.errors import DocumentError, RobotError
+from rrnn_opt.files import read_text
 
 LARGEST = 32 * 1024 * 1024  # bytes
+MOST = 1_000
+"""Links and joints that are accepted at most."""
+DEEPEST = 50
+"""Nested elements; a URDF needs six."""
 KINDS = ("revolute", "continuous", "prismatic", "fixed")
 LIMITED = ("revolute", "prismatic")
 SIZES = {"sphere": ("radius",), "cylinder": ("radius", "length"), "box": ("size",)}
@@ -94,6 +99,7 @@ def read_urdf(path: str | Path) -> Urdf:
         raise RobotError(where, f"not well-formed XML: {error}") from None
     if root.tag != "robot":
         raise RobotError(where, f"not a URDF: its root is <{root.tag}>, not <robot>")
+    _check_size(root, where)
     if any("xacro" in str(element.tag) for element in root):
         raise RobotError(where, "this is a xacro file; expand it with xacro first")
     try:
@@ -106,20 +112,26 @@ def read_urdf(path: str | Path) -> Urdf:
 
 def _safe_text(path: Path, where: str) -> str:
     try:
-        size = path.stat().st_size
-        raw = path.read_bytes() if size <= LARGEST else b""
-    except OSError as error:
-        raise RobotError(where, f"cannot be read: {error.strerror}") from None
-    if size > LARGEST:
-        raise RobotError(where, f"larger than {LARGEST // 2**20} MiB; not a URDF")
-    try:
-        text = raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise RobotError(where, "not UTF-8 text; save it as UTF-8") from None
+        text = read_text(path, most=LARGEST)
+    except DocumentError as error:
+        raise RobotError(where, str(error).removeprefix(f"{where}: ")) from None
     upper = text.upper()
     if "<!DOCTYPE" in upper or "<!ENTITY" in upper:
         raise RobotError(where, "has a DOCTYPE or ENTITY, which a URDF needs not")
     return text
+
+
+def _check_size(root: ET.Element, where: str) -> None:
+    """Refuse what would overrun pinocchio's recursive readers."""
+    level, depth = list(root), 1
+    while level and depth <= DEEPEST:
+        level, depth = [child for element in level for child in element], depth + 1
+    if level:
+        raise RobotError(where, f"elements are nested more than {DEEPEST} deep")
+    for kind in ("link", "joint"):
+        count = len(root.findall(kind))
+        if count > MOST:
+            raise RobotError(where, f"has {count} {kind}s; at most {MOST} are accepted")
 
 
 def _urdf(root: ET.Element, text: str, where: str) -> Urdf:
@@ -156,7 +168,7 @@ def _check_numbers(joint: ET.Element) -> None:
     """Where a joint stands and turns must be finite numbers."""
     for element in (*joint.findall("origin"), *joint.findall("axis")):
         for field in {"xyz", "rpy"} & set(element.attrib):
-            _floats(element.attrib[field], 3)
+            floats(element.attrib[field], 3)
 
 
 def _check_tree(
@@ -211,29 +223,40 @@ def _mimics(
 
 def _collisions(root: ET.Element) -> dict[str, tuple[Primitive, ...]]:
     shapes = {
-        link.attrib["name"]: tuple(map(_primitive, link.findall("collision")))
+        link.attrib["name"]: tuple(map(read_primitive, link.findall("collision")))
         for link in root.findall("link")
     }
     return {link: found for link, found in shapes.items() if found}
 
 
-def _primitive(collision: ET.Element) -> Primitive:
+def read_primitive(collision: ET.Element) -> Primitive:
+    """The geometry of a <collision> or <visual> element.
+
+    Raises:
+        ValueError: a number is missing, not finite, or a size not positive.
+        KeyError: an attribute is missing.
+    """
     origin = collision.find("origin")
     attributes = {} if origin is None else origin.attrib
-    xyz = _floats(attributes.get("xyz", "0 0 0"), 3)
-    rpy = _floats(attributes.get("rpy", "0 0 0"), 3)
+    xyz = floats(attributes.get("xyz", "0 0 0"), 3)
+    rpy = floats(attributes.get("rpy", "0 0 0"), 3)
     for kind, fields in SIZES.items():
         shape = collision.find(f"geometry/{kind}")
         if shape is not None:
             text = " ".join(shape.attrib[field] for field in fields)
-            size = _floats(text, 3 if kind == "box" else len(fields))
+            size = floats(text, 3 if kind == "box" else len(fields))
             if min(size) <= 0.0:
                 raise ValueError(f"a {kind} needs positive sizes, not '{text}'")
             return Primitive(kind, size, xyz, rpy)
     return Primitive("mesh", (), xyz, rpy)
 
 
-def _floats(text: str, count: int) -> tuple[float, ...]:
+def floats(text: str, count: int) -> tuple[float, ...]:
+    """So many finite numbers of an attribute.
+
+    Raises:
+        ValueError: they are not.
+    """
     values = tuple(float(word) for word in text.split())
     if len(values) != count or any(not abs(v) < float("inf") for v in values):
         raise ValueError(f"'{text}' must be {count} finite numbers")

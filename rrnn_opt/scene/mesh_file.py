@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.errors import ProblemError
+from rrnn_opt.errors import DocumentError, ProblemError
+from rrnn_opt.files import read_bytes
 
 Array = NDArray[np.float64]
 LARGEST_FILE = 256 * 2**20
@@ -45,13 +46,9 @@ def read_vertices(path: Path, field: str = "path") -> Array:
 
 def _bytes(path: Path, field: str) -> bytes:
     try:
-        if path.stat().st_size > LARGEST_FILE:
-            message = f"{path.name} is larger than {LARGEST_FILE // 2**20} MiB"
-            raise ProblemError(field, message)
-        return path.read_bytes()
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise ProblemError(field, f"{path} cannot be read: {reason}") from None
+        return read_bytes(path, most=LARGEST_FILE)
+    except DocumentError as error:
+        raise ProblemError(field, str(error)) from None
 
 
 def _stl(raw: bytes) -> Array:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar
@@ -9,7 +11,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.errors import ProblemError
+from rrnn_opt.errors import DocumentError, ProblemError
+from rrnn_opt.files import read_bytes
 from rrnn_opt.scene import fields as check
 from rrnn_opt.scene.digest import sha256
 from rrnn_opt.scene.shapes import PACKED
@@ -82,10 +85,14 @@ def read_points(path: Path) -> Array:
         ProblemError: it cannot be read, or is not n rows of three numbers.
     """
     try:
-        points = _csv(path) if path.suffix.lower() == ".csv" else _npy(path)
-    except (OSError, ValueError, EOFError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise ProblemError("path", f"{path} cannot be read: {reason}") from None
+        raw = read_bytes(path)
+        points = _csv(raw) if path.suffix.lower() == ".csv" else _npy(raw)
+    except DocumentError as error:
+        raise ProblemError("path", str(error)) from None
+    except (OSError, ValueError, EOFError, MemoryError, SyntaxError) as error:
+        reason = " ".join(str(error).split())[:200]
+        message = f"{path} cannot be read: {reason}"
+        raise ProblemError("path", message) from None
     if points.ndim != 2 or points.shape[1] != 3 or points.dtype.kind not in "fiu":
         message = f"{path.name} must hold n x 3 numbers, has {points.shape}"
         raise ProblemError("path", message)
@@ -100,20 +107,32 @@ def read_points(path: Path) -> Array:
     return result
 
 
-def _npy(path: Path) -> NDArray[Any]:
-    loaded: NDArray[Any] = np.load(path, allow_pickle=False)
-    if not isinstance(loaded, np.ndarray):
-        raise ValueError("it is no .npy array")
-    return loaded
+def _npy(raw: bytes) -> NDArray[Any]:
+    """An array whose shape fits the bytes; objects are never unpickled."""
+    file = io.BytesIO(raw)
+    version = np.lib.format.read_magic(file)
+    read = {
+        (1, 0): np.lib.format.read_array_header_1_0,
+        (2, 0): np.lib.format.read_array_header_2_0,
+    }
+    if version not in read:
+        raise ValueError(f"version {version} of the format")
+    shape, _, dtype = read[version](file)
+    if dtype.hasobject or dtype.kind not in "fiu":
+        raise ValueError(f"it holds {dtype}, not numbers")
+    if math.prod(shape) * dtype.itemsize != len(raw) - file.tell():
+        raise ValueError(f"its length is not that of {shape} numbers")
+    file.seek(0)
+    return np.asarray(np.lib.format.read_array(file, allow_pickle=False))
 
 
-def _csv(path: Path) -> NDArray[Any]:
-    with path.open(encoding="utf-8-sig") as file:
-        first = file.readline()
+def _csv(raw: bytes) -> NDArray[Any]:
+    lines = [line for line in raw.decode("utf-8-sig").splitlines() if line.strip()]
     try:
-        [float(word) for word in first.split(",")]
+        [float(word) for word in lines[0].split(",")] if lines else None
     except ValueError:
-        return np.loadtxt(
-            path, delimiter=",", ndmin=2, skiprows=1, encoding="utf-8-sig"
-        )
-    return np.loadtxt(path, delimiter=",", ndmin=2, encoding="utf-8-sig")
+        del lines[0]
+    if len(lines) > MOST:
+        raise ValueError(f"more than {MOST} rows")
+    rows = [[float(word) for word in line.split(",")] for line in lines]
+    return np.array(rows, dtype=np.float64).reshape(len(rows), -1)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rrnn_opt.errors import DocumentError, ProblemError
+from rrnn_opt.files import read_text
 from rrnn_opt.scene.fields import not_negative, positive, record, text, vector
 from rrnn_opt.scene.reading import scene_from_list
 from rrnn_opt.simulation.task import (
@@ -35,12 +36,12 @@ def load_task(path: str | Path) -> Task:
         DocumentError: the file cannot be read or is no TOML.
         ProblemError: a field is missing, unknown or wrong; it is named.
     """
+    text = read_text(path)
     try:
-        with Path(path).open("rb") as file:
-            document = tomllib.load(file)
-    except OSError as error:
-        raise DocumentError(str(path), f"cannot be read ({error})") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        document = tomllib.loads(text)
+    except RecursionError:
+        raise DocumentError(str(path), "nested too deeply") from None
+    except ValueError as error:  # no TOML, or a number of thousands of digits
         raise DocumentError(str(path), f"is not TOML: {error}") from error
     return task_from_dict(document)
 

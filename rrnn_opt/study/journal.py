@@ -24,7 +24,11 @@ def intact(entry: Any) -> bool:
     """Whether an entry has all its fields and they give its digest."""
     if not isinstance(entry, dict) or not {*FIELDS, "check"} <= set(entry):
         return False
-    return bool(entry["check"] == _digest(entry))
+    try:
+        same = bool(entry["check"] == _digest(entry))
+        return same and len(bytes.fromhex(entry["identity"])) > 0
+    except (TypeError, ValueError, RecursionError):
+        return False
 
 
 def _digest(entry: Mapping[str, Any]) -> str:

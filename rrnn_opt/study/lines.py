@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import json
 import os
 from collections.abc import Iterator, Mapping
@@ -21,7 +22,7 @@ def read_lines(path: Path) -> Iterator[dict[str, Any] | None]:
         for line in lines:
             try:
                 entry = json.loads(line)
-            except ValueError:
+            except (ValueError, RecursionError):
                 entry = None
             yield entry if isinstance(entry, dict) else None
 
@@ -37,6 +38,9 @@ class Lines:
     Attributes:
         path: the same.
         damaged: lines that the last iteration found broken.
+
+    Raises:
+        OSError: the file is a link: what it points to is not ours to cut.
     """
 
     def __init__(self, path: Path) -> None:
@@ -64,7 +68,8 @@ class Lines:
                 nothing of this entry.
         """
         data = (json.dumps(entry) + "\n").encode()
-        handle = os.open(self.path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o666)
+        ways = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_NOFOLLOW
+        handle = os.open(self.path, ways, 0o666)
         try:
             before = os.fstat(handle).st_size
             try:
@@ -84,6 +89,8 @@ class Lines:
 
 def _cut_last_line(path: Path) -> None:
     """Remove what follows the last end of a line."""
+    if path.is_symlink():
+        raise OSError(errno.ELOOP, "a link is not written through", str(path))
     if not path.exists():
         return
     with path.open("rb+") as file:

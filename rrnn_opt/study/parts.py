@@ -73,7 +73,7 @@ def read_part(path: Path) -> Iterator[dict[str, Any] | None]:
 def _entry(row: dict[str, Any]) -> dict[str, Any] | None:
     try:
         return {**row, "metrics": json.loads(row["metrics"])}
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, RecursionError):
         return None
 
 

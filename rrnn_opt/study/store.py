@@ -118,7 +118,8 @@ class Store:
         return sorted(self.folder.glob("part-*.parquet"))
 
     def _next(self) -> Path:
-        numbers = [int(path.stem.removeprefix("part-")) for path in self._parts()]
+        names = [path.stem.removeprefix("part-") for path in self._parts()]
+        numbers = [int(name) for name in names if name.isdecimal()]
         return self.folder / f"part-{max(numbers, default=0) + 1:06d}.parquet"
 
 

@@ -148,5 +148,5 @@ def test_a_file_that_cannot_be_read(tmp_path):
     with pytest.raises(DocumentError, match="not TOML"):
         Task.load(tmp_path / "bad.toml")
     (tmp_path / "latin.toml").write_bytes(b"a = '\xff'")
-    with pytest.raises(DocumentError, match="not TOML"):
+    with pytest.raises(DocumentError, match="not UTF-8"):
         Task.load(tmp_path / "latin.toml")

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import runpy
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from rrnn_opt.errors import RrnnError
+from rrnn_opt.files import from_python, read_bytes, shown_path
 from rrnn_opt.solving import Instance
 from rrnn_opt.study.comparison.problem_set import ProblemSet, settled_truth
 
@@ -83,12 +84,7 @@ def write_test_set(problems: ProblemSet, path: Path) -> Path:
 
 
 def _run_file(path: str) -> list[ProblemSet]:
-    try:
-        given = list(runpy.run_path(path)["cases"]())
-    except KeyError:
-        raise RrnnError(f"{path} defines no function cases()") from None
-    except OSError as error:
-        raise RrnnError(f"{path}: cannot be read ({error.strerror})") from error
+    given = from_python(path, "cases")
     sets = []
     for case in given:
         if isinstance(case, ProblemSet):
@@ -106,25 +102,66 @@ def _read_test_set(path: str) -> list[ProblemSet]:
     from qpsolvers import Problem
 
     _, pq = _arrow()
+    read_bytes(path)
     try:
         rows = pq.read_table(path).to_pylist()
-    except Exception as error:
-        raise RrnnError(f"{path}: is no Parquet test set ({error})") from error
+    except Exception as error:  # Arrow raises what it likes
+        reason = shown_path(str(error).split("\n")[0])
+        raise RrnnError(f"{path}: is no Parquet test set ({reason})") from error
     if not rows or not {*KEYS} <= set(rows[0]):
         raise RrnnError(f"{path}: a test set has the columns {', '.join(KEYS)}")
-    made = []
-    for row in rows:
-        n = len(row["q"])
-        parts = {key: _shaped(row[key], key, n) for key in KEYS}
-        made.append(Problem(**parts))
+    made = [
+        Problem(**_programme(row, f"{path}, row {k}")) for k, row in enumerate(rows)
+    ]
     return [named_set(Path(path).stem, made)]
 
 
-def _shaped(value: list[float] | None, key: str, n: int) -> Any:
+def _programme(row: Mapping[str, Any], where: str) -> dict[str, Any]:
+    """Arrays of one row, each of the shape that q gives it.
+
+    Raises:
+        RrnnError: P or q is missing, rows go without their right sides, a
+            length does not fit, or a number is NaN (or infinite, but in h, lb
+            and ub).
+    """
+    parts = {key: _column(row[key], key, where) for key in KEYS}
+    q = parts["q"]
+    if q is None or not len(q) or parts["P"] is None:
+        raise RrnnError(f"{where}: needs P and q")
+    n = len(q)
+    wide = {"P": n, "G": _length(parts["h"]), "A": _length(parts["b"])}
+    for key, rows in wide.items():
+        found = parts[key]
+        if (found is None) != (rows == 0) or (
+            found is not None and len(found) != rows * n
+        ):
+            raise RrnnError(f"{where}: {key} must hold {rows} rows of {n} numbers")
+        parts[key] = None if found is None else found.reshape(rows, n)
+    for key in ("lb", "ub"):
+        if parts[key] is not None and len(parts[key]) != n:
+            raise RrnnError(f"{where}: {key} must hold {n} numbers")
+    return parts
+
+
+def _length(values: Any) -> int:
+    return 0 if values is None else len(values)
+
+
+def _column(value: Any, key: str, where: str) -> Any:
     if value is None:
         return None
-    array = np.array(value, dtype=np.float64)
-    return array.reshape(-1, n) if key in ("P", "G", "A") else array
+    try:
+        array = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        array = np.array(math.nan)
+    bounds = key in ("h", "lb", "ub")
+    if (
+        array.ndim != 1
+        or np.any(np.isnan(array))
+        or not (bounds or np.all(np.isfinite(array)))
+    ):
+        raise RrnnError(f"{where}: {key} must be a list of finite numbers")
+    return array if len(array) else None
 
 
 def _flat(value: Any) -> Any:

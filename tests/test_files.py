@@ -1,13 +1,13 @@
 """Documents that cannot be read: one sentence each, and where."""
 
 import json
+import os
 
 import pytest
 
 from rrnn_opt.errors import DocumentError, ProblemError
-from rrnn_opt.planning import reading
+from rrnn_opt.files import from_python, read_bytes, read_json, read_text
 from rrnn_opt.planning.problem import Problem
-from rrnn_opt.planning.reading import read_json
 
 START = '{"robot": "planar3", "goal": {"position": [1, 1, 0]}, "start": '
 
@@ -38,14 +38,44 @@ def test_unreadable(tmp_path, raw, words):
     assert "\n" not in str(caught.value)
 
 
-def test_a_file_of_gigabytes_is_not_read(tmp_path, monkeypatch):
-    monkeypatch.setattr(reading, "LARGEST_DOCUMENT", 2**20)
+def test_a_file_of_gigabytes_is_not_read(tmp_path):
     path = tmp_path / "p.json"
     path.write_bytes(b" " * (2**20 - 2) + b"{}")
-    assert read_json(path) == {}
+    assert read_text(path, most=2**20).endswith("{}")
     path.write_bytes(b" " * 2**20 + b"{}")
     with pytest.raises(DocumentError, match="larger than 1 MiB"):
+        read_text(path, most=2**20)
+    with path.open("wb") as file:
+        file.truncate(200 * 2**30)
+    with pytest.raises(DocumentError, match="larger than 64 MiB"):
         read_json(path)
+
+
+def test_devices_and_pipes_are_no_files(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    for path in ("/dev/zero", tmp_path / "pipe"):
+        with pytest.raises(DocumentError, match="it is no file"):
+            read_bytes(path)
+
+
+@pytest.mark.parametrize(
+    ("source", "words"),
+    [
+        ("x = ", "SyntaxError"),
+        ("raise RuntimeError('mine')", r"fails in line 1 \(RuntimeError: mine\)"),
+        ("import sys\nsys.exit(0)", r"fails in line 2 \(SystemExit: 0\)"),
+        ("def made(): raise KeyError('k')", "fails in line 1"),
+        ("def made(): return None", "not iterable"),
+        ("def made(): return made()", "RecursionError"),
+        ("made = 3", r"defines no function made\(\)"),
+        ("def made(n): return []", "TypeError"),
+    ],
+)
+def test_a_users_program_that_fails_is_named_with_its_line(tmp_path, source, words):
+    path = tmp_path / "own.py"
+    path.write_text(source)
+    with pytest.raises(DocumentError, match=words):
+        from_python(path, "made")
 
 
 def test_no_file_a_folder_and_a_name_that_no_file_can_have(tmp_path):

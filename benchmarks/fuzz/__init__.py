@@ -1,0 +1,1 @@
+"""Bad input for every entry: generated from seeds, counted by how it ends."""
