@@ -13,6 +13,7 @@ NAMES = (
     "batch",
     "control_step",
     "planning",
+    "command",
     "whitening",
     "simulation",
     "intervals",
