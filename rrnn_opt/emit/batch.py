@@ -79,12 +79,17 @@ class Batch:
     ) -> tuple[Callable[[], None], tuple[Array, ...]]:
         """Check once, evaluate often: a call without arguments, and its results.
 
-        Arguments and errors are those of a call.  Arrays that are read where
-        they are may change between evaluations; those that had to be copied
-        keep the numbers of now.
+        Arrays that are read where they are may change between evaluations; those
+        that had to be copied keep the numbers of now.
+
+        Args:
+            *arrays: as in a call, one for each argument.
+            out: from :meth:`room`, written at every evaluation; new ones by default.
 
         Raises:
-            ShapeError: wrong number or shape of arrays.
+            ShapeError: wrong number or shape of arrays; as LayoutError: ``out``
+                is not from :meth:`room`, or shares memory with an argument.
+            RrnnError: every argument is a single value.
         """
         given = [np.asarray(a, np.float64) for a in arrays]
         n = columns_of(self.name, self.inputs, given)

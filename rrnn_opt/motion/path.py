@@ -87,6 +87,9 @@ class Path:
 
         The start and the goal are kept exactly; two rows remain at least,
         unless the path is a single point.
+
+        Args:
+            tolerance: largest joint distance, rad or m, that counts as none.
         """
         steps = np.abs(np.diff(self.waypoints, axis=0))
         if np.all(steps.max(axis=1, initial=0.0) > tolerance):

@@ -39,6 +39,11 @@ class Trajectory:
     def from_rows(t: ArrayLike, q: ArrayLike, qd: ArrayLike) -> Trajectory:
         """A trajectory from its rows; ``qdd`` follows from them.
 
+        Args:
+            t: times, (n,), s, increasing.
+            q: joint positions, (n, nv), rad or m.
+            qd: joint velocities, (n, nv), rad/s or m/s.
+
         Raises:
             ShapeError: shapes do not fit.
             NotFiniteError: a number is NaN or infinite.
@@ -93,6 +98,9 @@ class Trajectory:
     def stretched(self, factor: float) -> Trajectory:
         """The same path, ``factor`` times slower.
 
+        Args:
+            factor: of the duration; positive.
+
         Raises:
             RetimeError: the factor is not a positive number.
         """
@@ -114,6 +122,9 @@ class Trajectory:
         """A trajectory from the "trajectory" object of a plan.
 
         ``qdd`` is derived again, as it follows from the rest.
+
+        Args:
+            data: lists "t" (s), "q" and "qd" by row.
         """
         return Trajectory.from_rows(data["t"], data["q"], data["qd"])
 

@@ -76,7 +76,11 @@ class MemoryCell:
         return (numerator + 2 * stimulus * (1 - fade)) / denominator
 
     def function(self, name: str = "memory_cell") -> ca.Function:
-        """``(activity, stimulus) -> next``, as a CasADi function."""
+        """``(activity, stimulus) -> next``, as a CasADi function.
+
+        Args:
+            name: of the function.
+        """
         x, stimulus = ca.SX.sym("activity"), ca.SX.sym("stimulus")
         return ca.Function(
             name,

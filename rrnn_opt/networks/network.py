@@ -66,7 +66,11 @@ class Network(ABC):
 
     @abstractmethod
     def needs(self, form: Formulation) -> Needs:
-        """What the network of ``form`` needs."""
+        """What the network of ``form`` needs.
+
+        Args:
+            form: the formulation it would be made of.
+        """
 
     @property
     @abstractmethod

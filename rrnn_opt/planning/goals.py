@@ -103,7 +103,11 @@ class TipGoal:
         return np.zeros(3) if self.region is None else 0.5 * self.region
 
     def distance(self, point: Array) -> float:
-        """Distance of a point from the position or the region, m."""
+        """Distance of a point from the position or the region, m.
+
+        Args:
+            point: position of the tip, (3,), m.
+        """
         local = self.rotation.T @ (np.asarray(point) - self.position)
         outside = np.maximum(np.abs(local) - self.half_edges, 0.0)
         return float(np.linalg.norm(outside))

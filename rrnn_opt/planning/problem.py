@@ -89,6 +89,9 @@ class Problem:
     def load(path: str | Path) -> Problem:
         """The problem that a file holds; paths in it start at its folder.
 
+        Args:
+            path: problem file (JSON).
+
         Raises:
             DocumentError: the file is no JSON document.
             ProblemError: names the field that is not valid.

@@ -54,6 +54,10 @@ def _replace(target: Path, data: bytes) -> None:
 def write_text(path: str | Path, text: str) -> Path:
     """Write a UTF-8 file like ``write_bytes``.
 
+    Args:
+        path: file to write; it appears whole or not at all.
+        text: what it will hold.
+
     Raises:
         OSError: as there.
     """

@@ -109,6 +109,9 @@ class Kinematics:
     def pose(self, frame: str | None = None) -> ca.SX:
         """Pose of a frame in the base, (4, 4), m; the tip without a name.
 
+        Args:
+            frame: its name; the tip without one.
+
         Raises:
             RobotError: there is no such frame.
         """
@@ -116,6 +119,9 @@ class Kinematics:
 
     def position(self, frame: str | None = None) -> ca.SX:
         """Origin of a frame in the base, (3, 1), m; the tip without a name.
+
+        Args:
+            frame: its name; the tip without one.
 
         Raises:
             RobotError: there is no such frame.
@@ -197,8 +203,13 @@ class Kinematics:
     def manipulability(self, frame: str | None = None) -> ca.SX:
         """Yoshikawa's measure sqrt(det(J J')) of the position Jacobian.
 
+        Source: T. Yoshikawa, Int. J. Robotics Research 4(2), 1985.
+
         Rows in which the arm cannot move at all (z of a planar arm) are left
         out; with fewer joints than rows it is sqrt(det(J' J)).
+
+        Args:
+            frame: its name; the tip without one.
 
         Raises:
             RobotError: there is no such frame.

@@ -77,6 +77,9 @@ class Robot:
     def frame(self, name: str | None = None) -> Frame:
         """The frame of that name; the tip when no name is given.
 
+        Args:
+            name: of a frame; None for the tip.
+
         Raises:
             RobotError: there is no such frame.
         """
@@ -142,6 +145,10 @@ class Robot:
     @staticmethod
     def from_pinocchio(model: Any, *, tip: str | None = None) -> Robot:
         """All joints of a ``pin.Model`` as a tree.
+
+        Args:
+            model: without free-flyer, its joints of one degree of freedom.
+            tip: frame name; the model's last frame without it.
 
         Raises:
             RobotError: a joint of another type, or no frame ``tip``.

@@ -97,6 +97,9 @@ class JointTree:
         """Joints that move joint ``joint``'s frame, root first, itself last.
 
         Empty for the base (-1).
+
+        Args:
+            joint: its number.
         """
         chain: list[int] = []
         while joint != BASE:
@@ -105,7 +108,12 @@ class JointTree:
         return tuple(reversed(chain))
 
     def common_ancestor(self, first: int, second: int) -> int:
-        """The last joint that moves both frames (-1 when it is the base)."""
+        """The last joint that moves both frames (-1 when it is the base).
+
+        Args:
+            first: number of a joint.
+            second: number of another, or the same.
+        """
         common = BASE
         for a, b in zip(self.ancestors(first), self.ancestors(second), strict=False):
             if a != b:

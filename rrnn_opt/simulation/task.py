@@ -119,6 +119,10 @@ class Task:
     def with_noise(self, sigma: float, *, seed: int | None = None) -> Task:
         """The same task with another noise.
 
+        Args:
+            sigma: standard deviation, in the unit of what is disturbed.
+            seed: of the noise; the task's own by default.
+
         Raises:
             ProblemError: sigma is no number, or negative.
         """
@@ -132,6 +136,9 @@ class Task:
     @staticmethod
     def load(path: str | Path) -> Task:
         """Read a TASK.toml.
+
+        Args:
+            path: task file (TOML).
 
         Raises:
             DocumentError: the file cannot be read or is no TOML.

@@ -71,11 +71,19 @@ class Solver(Protocol):
         ...
 
     def setup(self, instance: Instance) -> None:
-        """Take the first instance; what can be done once is done here."""
+        """Take the first instance; what can be done once is done here.
+
+        Args:
+            instance: the numbers and the QP that they make.
+        """
         ...
 
     def update(self, instance: Instance) -> None:
-        """Take the next instance, of the same shapes."""
+        """Take the next instance, of the same shapes.
+
+        Args:
+            instance: the numbers and the QP that they make.
+        """
         ...
 
     def solve(self) -> Solution:

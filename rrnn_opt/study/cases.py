@@ -66,6 +66,10 @@ class Study(Protocol):
         """The metric columns of one case; randomness from ``rng`` only.
 
         Columns that hold times end in "_s", "_ms", "_us" or "_ns".
+
+        Args:
+            case: one of the study's.
+            rng: the case's own random numbers.
         """
         ...
 
@@ -74,7 +78,13 @@ class Workers(Protocol):
     """Where cases are measured: here, in processes, on a cluster."""
 
     def rows(self, study: Study, cases: Iterator[Case], seed: int) -> Iterator[Row]:
-        """One row a case, as they are finished; cases are taken as needed."""
+        """One row a case, as they are finished; cases are taken as needed.
+
+        Args:
+            study: whose metric is measured.
+            cases: of the study, in any number.
+            seed: of the whole study.
+        """
         ...
 
 

@@ -103,7 +103,12 @@ class Results:
             yield row
 
     def finish(self, study: Study, **options: Any) -> list[Row]:
-        """``run`` to the end, then ``rows``."""
+        """``run`` to the end, then ``rows``.
+
+        Args:
+            study: what to run.
+            **options: those of ``run``.
+        """
         for _ in self.run(study, **options):
             pass
         return self.rows(study)

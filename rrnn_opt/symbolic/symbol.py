@@ -96,24 +96,48 @@ class Symbol:
 
     @staticmethod
     def vector(name: str, n: int, unit: str = "1", meaning: str = "") -> Symbol:
-        """A fresh column of ``n`` elements."""
+        """A fresh column of ``n`` elements.
+
+        Args:
+            name: its name in C, tables and errors.
+            n: number of elements.
+            unit: SI, of every element.
+            meaning: half a sentence for tables.
+        """
         return Symbol(name, ca.SX.sym(name, n), unit, meaning)
 
     @staticmethod
     def matrix(
         name: str, shape: tuple[int, int], unit: str = "1", meaning: str = ""
     ) -> Symbol:
-        """A fresh dense matrix of ``shape`` (rows, columns)."""
+        """A fresh dense matrix of ``shape`` (rows, columns).
+
+        Args:
+            name: its name in C, tables and errors.
+            shape: rows and columns.
+            unit: SI, of every element.
+            meaning: half a sentence for tables.
+        """
         return Symbol(name, ca.SX.sym(name, *shape), unit, meaning)
 
     @staticmethod
     def scalar(name: str, unit: str = "1", meaning: str = "") -> Symbol:
-        """A fresh scalar."""
+        """A fresh scalar.
+
+        Args:
+            name: its name in C, tables and errors.
+            unit: SI, e.g. "rad/s"; "1" without one.
+            meaning: half a sentence for tables.
+        """
         return Symbol(name, ca.SX.sym(name), unit, meaning)
 
 
 def require_names(symbols: tuple[Symbol, ...], where: str) -> None:
     """Refuse two symbols of one name.
+
+    Args:
+        symbols: those of one declaration.
+        where: whose they are, for the error.
 
     Raises:
         RrnnError: a name stands twice.

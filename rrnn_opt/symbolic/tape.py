@@ -121,6 +121,9 @@ def fingerprint(fn: ca.Function) -> str:
 
     The name of the function itself does not enter; two graphs that differ in
     nothing but dead code or repeated subexpressions agree.
+
+    Args:
+        fn: SX or MX function.
     """
     return Tape.of(fn).fingerprint
 

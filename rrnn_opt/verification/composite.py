@@ -97,6 +97,9 @@ class Proof:
     def settle(self, *, seed: int = 0) -> Verdict:
         """Settle the lemmas, then let the checker judge the whole.
 
+        Args:
+            seed: of the engines' searches.
+
         Returns:
             The verdict; UNKNOWN names the lemma or the step that failed.  A
             lemma that is the claim itself may refute it.
@@ -187,7 +190,12 @@ class Proof:
 
 
 def settle(statement: Claim | DecayClaim | Proof, *, seed: int = 0) -> Verdict:
-    """Settle a claim by the engines, or a proof by its lemmas."""
+    """Settle a claim by the engines, or a proof by its lemmas.
+
+    Args:
+        statement: a claim, or a proof of one.
+        seed: of the engines' searches.
+    """
     if isinstance(statement, Proof):
         return statement.settle(seed=seed)
     return certify(statement, seed=seed)
