@@ -71,18 +71,35 @@ def refine(
     Returns:
         The path, every segment proved, and what it took.
     """
-    counts, raw = first.counts(), first.path()
-    budget, slides = (
-        2 * (counts.random + counts.heuristic) + 20,
-        settings.shorten_slides,
+    raw, end = first.path(), time.perf_counter() + improve_s
+    best, rounds = _searched(first, raw, new_search, settings, shortest, end)
+    clear = settings.steering_margin
+    straight = shortcut(
+        best,
+        lambda a, b: first.segment_free(a, b, clearance=clear),
+        rng=np.random.default_rng([seed, 1]),
+        attempts=0 if _nearly_straight(best) else STRAIGHT_SHORTCUTS,
     )
-    best = _shortened(first, raw, slides, np.inf)
-    rounds, end, new = 0, time.perf_counter() + improve_s, True
+    return Refined(straight, rounds, length(raw), length(straight))
+
+
+def _searched(
+    first: Search,
+    raw: Array,
+    new_search: NewSearch,
+    settings: RandomRnn,
+    shortest: float,
+    end: float,
+) -> tuple[Array, int]:
+    """The shortest path of several searches, and how many there were."""
+    counts, slides = first.counts(), settings.shorten_slides
+    budget = 2 * (counts.random + counts.heuristic) + 20
+    best, rounds, new = _shortened(first, raw, slides, np.inf), 0, True
     while True:
         hope = new and length(best) > NEARLY * shortest
         within = rounds < settings.refinements
         if not (hope and within) and time.perf_counter() >= end:
-            break
+            return best, rounds
         rounds += 1
         with new_search(rounds) as search:
             path = _found(search, budget)
@@ -92,14 +109,6 @@ def refine(
                 best = min(best, path, key=length)
         if not within:
             best = first.shorten(best, slides)
-    clear = settings.steering_margin
-    straight = shortcut(
-        best,
-        lambda a, b: first.segment_free(a, b, clearance=clear),
-        rng=np.random.default_rng([seed, 1]),
-        attempts=0 if _nearly_straight(best) else STRAIGHT_SHORTCUTS,
-    )
-    return Refined(straight, rounds, length(raw), length(straight))
 
 
 def _found(search: Search, budget: int) -> Array | None:

@@ -85,3 +85,32 @@ def test_improving_goes_on_until_its_seconds_are_spent(window_problem):
     assert 0.5 <= better.stats.refine_time_s < 5.0
     with pytest.raises(ProblemError, match="improve"):
         plan(problem, improve_s=-1.0)
+
+
+def test_no_search_where_none_can_help(window_problem):
+    """A joint goal across free space is reached nearly straight: nothing is left."""
+    start = Problem.from_dict(window_problem()).start
+    goal = (start + 0.3 * np.cos(np.arange(len(start)))).tolist()
+    free = window_problem(goal={"joints": goal}, obstacles=[])
+    result = plan(Problem.from_dict(free))
+    assert result.solved
+    assert result.stats.refinements == 0
+    apart = np.linalg.norm(np.subtract(goal, start))
+    assert result.stats.path_length <= 1.02 * apart
+
+
+def test_a_search_that_repeats_the_first_is_the_last(
+    pa10_runtime, window_problem, open_search
+):
+    problem, made = Problem.from_dict(window_problem()), []
+
+    def same(number):
+        made.append(number)
+        return open_search(pa10_runtime, problem, seed=1)
+
+    with open_search(pa10_runtime, problem, seed=1) as search:
+        raw = solved(search)
+        refined = refine(search, same, RandomRnn(refinements=3), 1)
+    assert made == [1]
+    assert refined.rounds == 1
+    assert refined.first_length == length(raw)
