@@ -21,7 +21,8 @@ from rrnn_opt.robot.placement import apply, compose, shift, turn
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.sphere_file import checked_pairs, placed_spheres, read_sphere_file
 from rrnn_opt.robot.tree import Array
-from rrnn_opt.robot.urdf import Primitive, Urdf
+from rrnn_opt.robot.urdf import Urdf
+from rrnn_opt.robot.urdf_shapes import Primitive
 
 INFLATION = 0.01  # m, wanted of the covers of cylinders' sides and boxes
 

@@ -14,26 +14,13 @@ from __future__ import annotations
 from functools import cached_property
 
 import casadi as ca
-import numpy as np
 
 from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.rotation import homogeneous, rotation_about
 from rrnn_opt.robot.tree import BASE, PRISMATIC, Array, Frame
 
 POSITION, POSE = "position", "pose"
-
-
-def _rotation(axis: Array, angle: ca.SX) -> ca.SX:
-    """Rodrigues' rotation about a unit axis, c I + (1 - c) a a' + s [a]x."""
-    c, s = ca.cos(angle), ca.sin(angle)
-    a = [float(value) for value in axis]
-    out = ca.SX.zeros(3, 3)
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        out[i, i] = 1.0 if abs(a[i]) == 1.0 else c + (1 - c) * (a[i] * a[i])
-        out[i, j] = (1 - c) * (a[i] * a[j]) - s * a[k]
-        out[j, i] = (1 - c) * (a[i] * a[j]) + s * a[k]
-    return out
 
 
 class Kinematics:
@@ -65,7 +52,7 @@ class Kinematics:
             if tree.types[k] == PRISMATIC:
                 p = p + (R @ ca.SX(tree.axes[k])) * value
             else:
-                R = R @ _rotation(tree.axes[k], value)
+                R = R @ rotation_about(tree.axes[k], value)
             frames.append((R, p))
         return frames
 
@@ -96,7 +83,7 @@ class Kinematics:
 
     def joint_frames(self) -> list[ca.SX]:
         """Pose of every tree joint's frame after its motion, 4x4 each, m."""
-        return [_homogeneous(R, p) for R, p in self._frames]
+        return [homogeneous(R, p) for R, p in self._frames]
 
     def origins(self) -> ca.SX:
         """Origins of the joint frames in the base, (3, nj), m."""
@@ -115,7 +102,7 @@ class Kinematics:
         Raises:
             RobotError: there is no such frame.
         """
-        return _homogeneous(*self._pose(frame))
+        return homogeneous(*self._pose(frame))
 
     def position(self, frame: str | None = None) -> ca.SX:
         """Origin of a frame in the base, (3, 1), m; the tip without a name.
@@ -249,8 +236,3 @@ class Kinematics:
             ["value"],
         )
         return out
-
-
-def _homogeneous(R: ca.SX, p: ca.SX) -> ca.SX:
-    bottom = ca.SX(np.array([[0.0, 0.0, 0.0, 1.0]]))
-    return ca.densify(ca.vertcat(ca.horzcat(R, p), bottom))

@@ -1,9 +1,7 @@
 """Robots from URDF files and pinocchio models; only here is pinocchio known.
 
-URDF has no acceleration limits, and some files lack velocity limits.  Known
-joints take theirs from ``ACCELERATION``; for all others the stated defaults
-stand, and the robot's ``source`` says for which joints.  Replace
-``robot.limits`` to use others.
+Limits that the file lacks are assumed (:mod:`rrnn_opt.robot.loaded_limits`), and the
+robot's ``source`` says for which joints; replace ``robot.limits`` to use others.
 """
 
 from __future__ import annotations
@@ -21,6 +19,7 @@ import numpy as np
 
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.body import collision_body
+from rrnn_opt.robot.loaded_limits import assumed, stated_limits
 from rrnn_opt.robot.restrict import restrict
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.tree import (
@@ -31,19 +30,11 @@ from rrnn_opt.robot.tree import (
     Array,
     Frame,
     JointTree,
-    Limits,
     frozen,
     indices,
 )
 from rrnn_opt.robot.urdf import Urdf, read_urdf
 
-VELOCITY_DEFAULT = {REVOLUTE: 1.0, CONTINUOUS: 1.0, PRISMATIC: 0.1}  # rad/s, m/s
-VELOCITY_CREDIBLE = 100.0  # rad/s or m/s; a larger figure is a placeholder
-ACCELERATION_DEFAULT = {REVOLUTE: 5.0, CONTINUOUS: 5.0, PRISMATIC: 1.0}  # rad/s2, m/s2
-ACCELERATION = {  # rad/s2; Franka's FCI limits of the Panda
-    f"panda_joint{i + 1}": value
-    for i, value in enumerate((15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0))
-}
 UNIT = 1e-9  # how far the length of an axis may be from one
 _stderr = threading.Lock()
 
@@ -104,7 +95,7 @@ def from_urdf(
     held = {name: float(value) for name, value in (locked or {}).items()}
     ends = _ends(whole, urdf, held, tip, tips)
     robot = restrict(whole, tips=ends, locked=held, mimic=urdf.mimic)
-    source = f"{urdf.path}{_assumed(model, robot)}"
+    source = f"{urdf.path}{assumed(model, robot)}"
     named = replace(robot, name=urdf.name, source=source)
     return collision_body(named, urdf, spheres)
 
@@ -125,7 +116,7 @@ def from_pinocchio(model: Any, *, tip: str | None = None) -> Robot:
     whole = _whole(model, str(model.name))
     if tip is not None:
         whole = replace(whole, tip=whole.frame(tip).name)
-    return replace(whole, source=f"pinocchio model{_assumed(model, whole)}")
+    return replace(whole, source=f"pinocchio model{assumed(model, whole)}")
 
 
 def _ends(
@@ -189,7 +180,7 @@ def _whole(model: Any, source: str) -> Robot:
             multiplier=frozen(np.ones(n), (n,), "multiplier"),
             offset=frozen(np.zeros(n), (n,), "offset"),
         ),
-        limits=_limits(model, types),
+        limits=stated_limits(model, types),
         frames=frames,
         tip=frames[-1].name if frames else "",
     )
@@ -225,38 +216,3 @@ def _frames(model: Any) -> Iterator[Frame]:
             pose = frozen(frame.placement.homogeneous, (4, 4), frame.name)
             carrier = int(frame.parentJoint) - 1
             yield Frame(frame.name, carrier if carrier >= 0 else BASE, pose)
-
-
-def _limits(model: Any, types: tuple[str, ...]) -> Limits:
-    n = len(types)
-    lower, upper = np.full(n, -np.inf), np.full(n, np.inf)
-    velocity, acceleration = np.zeros(n), np.zeros(n)
-    for i, kind in enumerate(types):
-        joint = model.joints[i + 1]
-        if kind != CONTINUOUS:
-            lower[i] = model.lowerPositionLimit[joint.idx_q]
-            upper[i] = model.upperPositionLimit[joint.idx_q]
-        given = float(model.velocityLimit[joint.idx_v])
-        velocity[i] = given if _credible(given) else VELOCITY_DEFAULT[kind]
-        known = ACCELERATION.get(model.names[i + 1])
-        acceleration[i] = ACCELERATION_DEFAULT[kind] if known is None else known
-    bounds = (lower, upper, velocity, acceleration)
-    return Limits(*(frozen(bound, (n,), "limits") for bound in bounds))
-
-
-def _credible(velocity: float) -> bool:
-    return 0.0 < velocity <= VELOCITY_CREDIBLE
-
-
-def _assumed(model: Any, robot: Robot) -> str:
-    """Which limits of a robot's joints are defaults of ours, as a sentence."""
-    indices = {name: model.getJointId(name) for name in robot.joint_names}
-    speeds = {n: model.velocityLimit[model.joints[i].idx_v] for n, i in indices.items()}
-    slow = [name for name, speed in speeds.items() if not _credible(float(speed))]
-    rates = [name for name in indices if name not in ACCELERATION]
-    parts = [
-        f"velocity limit 1 rad/s (0.1 m/s) assumed for {', '.join(slow)}",
-        f"acceleration limit 5 rad/s2 (1 m/s2) assumed for {', '.join(rates)}",
-    ]
-    stated = [part for part, names in zip(parts, (slow, rates), strict=True) if names]
-    return "".join(f"; {part}" for part in stated)

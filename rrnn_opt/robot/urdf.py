@@ -13,6 +13,7 @@ from pathlib import Path
 
 from rrnn_opt.errors import DocumentError, RobotError
 from rrnn_opt.files import read_text
+from rrnn_opt.robot.urdf_shapes import Primitive, collisions_of, floats
 
 LARGEST = 32 * 1024 * 1024  # bytes
 MOST = 1_000
@@ -21,7 +22,6 @@ DEEPEST = 50
 """Nested elements; a URDF needs six."""
 KINDS = ("revolute", "continuous", "prismatic", "fixed")
 LIMITED = ("revolute", "prismatic")
-SIZES = {"sphere": ("radius",), "cylinder": ("radius", "length"), "box": ("size",)}
 
 
 @dataclass(frozen=True)
@@ -31,23 +31,6 @@ class Mimic:
     source: str
     multiplier: float
     offset: float
-
-
-@dataclass(frozen=True)
-class Primitive:
-    """A collision geometry of a link.
-
-    Attributes:
-        kind: "sphere", "cylinder", "box", or "mesh" for all that is not one.
-        size: radius; radius and length; three edges; nothing for a mesh; m.
-        xyz: origin in the link's frame, m.
-        rpy: roll, pitch and yaw, rad.
-    """
-
-    kind: str
-    size: tuple[float, ...]
-    xyz: tuple[float, ...]
-    rpy: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -145,7 +128,7 @@ def _urdf(root: ET.Element, text: str, where: str) -> Urdf:
         links=links,
         joints=joints,
         mimic=dict(_mimics(root, {name for name, _, _ in joints}, where)),
-        collisions=_collisions(root),
+        collisions=collisions_of(root),
     )
 
 
@@ -219,45 +202,3 @@ def _mimics(
             raise RobotError(where, f"joint '{name}' mimics '{source}', not there")
         multiplier = float(mimic.get("multiplier", "1"))
         yield name, Mimic(source, multiplier, float(mimic.get("offset", "0")))
-
-
-def _collisions(root: ET.Element) -> dict[str, tuple[Primitive, ...]]:
-    shapes = {
-        link.attrib["name"]: tuple(map(read_primitive, link.findall("collision")))
-        for link in root.findall("link")
-    }
-    return {link: found for link, found in shapes.items() if found}
-
-
-def read_primitive(collision: ET.Element) -> Primitive:
-    """The geometry of a <collision> or <visual> element.
-
-    Raises:
-        ValueError: a number is missing, not finite, or a size not positive.
-        KeyError: an attribute is missing.
-    """
-    origin = collision.find("origin")
-    attributes = {} if origin is None else origin.attrib
-    xyz = floats(attributes.get("xyz", "0 0 0"), 3)
-    rpy = floats(attributes.get("rpy", "0 0 0"), 3)
-    for kind, fields in SIZES.items():
-        shape = collision.find(f"geometry/{kind}")
-        if shape is not None:
-            text = " ".join(shape.attrib[field] for field in fields)
-            size = floats(text, 3 if kind == "box" else len(fields))
-            if min(size) <= 0.0:
-                raise ValueError(f"a {kind} needs positive sizes, not '{text}'")
-            return Primitive(kind, size, xyz, rpy)
-    return Primitive("mesh", (), xyz, rpy)
-
-
-def floats(text: str, count: int) -> tuple[float, ...]:
-    """So many finite numbers of an attribute.
-
-    Raises:
-        ValueError: they are not.
-    """
-    values = tuple(float(word) for word in text.split())
-    if len(values) != count or any(not abs(v) < float("inf") for v in values):
-        raise ValueError(f"'{text}' must be {count} finite numbers")
-    return values
