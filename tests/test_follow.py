@@ -47,13 +47,13 @@ def test_a_panda_plan_keeps_clear(path):
 
 
 @pytest.mark.slow
-def test_a_thousand_plans():
-    """Each proved again from its document; every fiftieth followed by coal."""
-    starts = itertools.product(range(4), SCENARIOS, range(50))
+def test_hundreds_of_plans():
+    """Each proved again from its document; every twentieth followed by coal."""
+    starts = itertools.product(range(2), SCENARIOS, range(0, 50, 2))
     for count, (seed, name, start) in enumerate(starts):
         result = plan(Problem.from_dict(scenario(name).problem(start)), seed=seed)
         document = result.to_dict()
         assert check_plan(document).holds, (name, start, seed, result.message)
-        if count % 50 == 0:
+        if count % 20 == 0:
             keeps_clear(document)
-    assert count == 999
+    assert count == 249

@@ -1,7 +1,8 @@
 """Laws that every exported network must keep on every scheme it does not refuse.
 
 The default selection takes two schemes of the planar arm that hold every kind of
-row; the slow one takes all schemes on both robots.
+row; the slow one takes all schemes on that arm and a sixth of them on PA10, other
+ones for each network. (All of them on PA10: the study of the ground truth.)
 """
 
 import casadi as ca
@@ -25,8 +26,8 @@ QUICK = ("planar3", (Scheme("method1", "contacts"), Scheme("method3")))
 """All kinds of rows with bounds; equality rows alone."""
 
 EVERYTHING = [
-    pytest.param((robot, schemes()), id=f"{robot}-all", marks=pytest.mark.slow)
-    for robot in ROBOTS
+    pytest.param((robot, schemes()), id=name, marks=pytest.mark.slow)
+    for robot, name in zip(ROBOTS, ("planar3-all", "pa10-part"), strict=True)
 ]
 
 
@@ -37,7 +38,8 @@ def rule(request):
 
 def chosen(request, rule):
     robot, selection = request.param
-    found = accepted(robot, rule, selection)
+    part = selection[rules().index(rule) % 6 :: 6] if robot == "pa10" else selection
+    found = accepted(robot, rule, part) or accepted(robot, rule, selection)
     assert found
     return robot, found
 
