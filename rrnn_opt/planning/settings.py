@@ -40,6 +40,8 @@ class RandomRnn:
         connect: after a random slide, slide from the other tree to its end.
         drive: let every third heuristic slide follow the tip error from the start
             tree; without, the network only finds goal postures.
+        close_after: choices after which every second one steers without the margin,
+            so that passages narrower than it are entered too.
         refinements: searches after the first, for a shorter path.
         shorten_slides: slides tried to shorten each path found.
     """
@@ -67,6 +69,7 @@ class RandomRnn:
     project: bool = True
     connect: bool = True
     drive: bool = True
+    close_after: int = 50
     refinements: int = 3
     shorten_slides: int = 20
 

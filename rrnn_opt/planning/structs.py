@@ -49,6 +49,7 @@ class Settings(ct.Structure):
                 "project",
                 "connect",
                 "drive",
+                "close_after",
             )
         ),
     )
@@ -151,6 +152,7 @@ def settings_struct(settings: RandomRnn) -> Settings:
         project=settings.project,
         connect=settings.connect,
         drive=settings.drive,
+        close_after=settings.close_after,
     )
 
 

@@ -8,6 +8,8 @@ import pytest
 
 import rrnn_opt as rr
 from rrnn_opt.planning import Problem, RandomRnn
+from rrnn_opt.planning.goals import goals_from_data
+from rrnn_opt.scene.reading import scene_from_list
 
 
 def run(search, budget=3000):
@@ -136,3 +138,27 @@ def test_planar_arm(planar_runtime, open_search):
     with open_search(planar_runtime, problem) as search:
         assert run(search) == "solved"
         np.testing.assert_array_equal(search.path()[-1], [-0.9, -0.3, -0.2])
+
+
+TURNTABLE = """<robot name="turntable"><link name="base"/><link name="arm">
+<collision><origin xyz="0.5 0 0"/><geometry><sphere radius="0.05"/></geometry>
+</collision></link><joint name="turn" type="revolute"><parent link="base"/>
+<child link="arm"/><axis xyz="0 0 1"/>
+<limit lower="-2" upper="2" velocity="1" effort="1"/></joint></robot>"""
+
+
+def test_a_passage_narrower_than_the_steering_margin_is_entered(tmp_path):
+    """A ball that can only go round passes a beam 0.8 mm above it."""
+    file = tmp_path / "turntable.urdf"
+    file.write_text(TURNTABLE)
+    beam = {"name": "beam", "type": "box", "size": [0.4, 0.04, 0.1]}
+    problem = Problem(
+        rr.Robot.from_urdf(file),
+        np.array([-1.0]),
+        goals=goals_from_data({"joints": [1.0]}),
+        scene=scene_from_list([{**beam, "position": [0.5, 0.0, 0.1008]}]),
+    )
+    for close_after, status in ((10**9, "budget_exhausted"), (0, "solved")):
+        settings = dataclasses.replace(RandomRnn(), close_after=close_after)
+        found = rr.plan(problem, settings=settings, max_explorations=300)
+        assert found.status == status

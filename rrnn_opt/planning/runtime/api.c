@@ -76,6 +76,7 @@ RRNN_EXPORT planner_t *NAME(create)(const settings_t *settings, const request_t 
     const size_t nodes = (size_t)request->nodes;
     const size_t tips = (size_t)request->tip_goal_count + 1;
     planner->set = *settings;
+    planner->steering = settings->steering;
     world_open(&planner->world, request);
     planner->world.margin = request->margin;
     planner->world.key = malloc((solids * NB + 1) * sizeof(double));

@@ -97,7 +97,7 @@ static void write_rights(planner_t *planner)
         block_t *block = &planner->world.open[p];
         block->used = 0;
         for (int32_t l = 0; l < LANES; l++) {
-            k_offset(block->gap + l, &planner->set.steering, block->bound + l,
+            k_offset(block->gap + l, &planner->steering, block->bound + l,
                      block->right + l);
         }
     }

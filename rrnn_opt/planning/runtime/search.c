@@ -127,6 +127,20 @@ static double seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Chooses between a random and a heuristic turn, and takes it.  Late choices are in
+ * turn made without the steering margin, which would close narrower passages. */
+static int take_turn(planner_t *planner)
+{
+    const int64_t index = planner->choices++;
+    const int close = index >= planner->set.close_after && index % 2 == 1;
+    planner->steering = close ? 0.0 : planner->set.steering;
+    const int found = rng_uniform(&planner->rng) < planner->activity
+                          ? random_turn(planner)
+                          : heuristic_turn(planner);
+    planner->steering = planner->set.steering;
+    return found;
+}
+
 /* Explores until a path is found, the budget is spent, or `slice` seconds are
  * over (PAUSED: call again; pausing changes nothing of what is found). */
 static plan_status_t search(planner_t *planner, int64_t budget, double slice)
@@ -137,10 +151,7 @@ static plan_status_t search(planner_t *planner, int64_t budget, double slice)
         if (planner->random + planner->heuristic >= budget) {
             return BUDGET;
         }
-        const int found = rng_uniform(&planner->rng) < planner->activity
-                              ? random_turn(planner)
-                              : heuristic_turn(planner);
-        if (found && trace_path(planner)) {
+        if (take_turn(planner) && trace_path(planner)) {
             return SOLVED;
         }
         if (seconds() - begin > slice) {

@@ -41,6 +41,7 @@ typedef struct {
     int32_t project;      /* 0: no contact rows, a slide stops at contact */
     int32_t connect;      /* 0: no connecting slide after a random one */
     int32_t drive;        /* 0: no slide straight to a tip goal */
+    int32_t close_after;  /* choices after which every second has no margin */
 } settings_t;
 
 typedef struct {
@@ -152,6 +153,8 @@ typedef struct {
     double activity;
     int64_t random, heuristic, steps, budget;
     int32_t roots, turns, random_turns, ik_failures;
+    int64_t choices;
+    double steering;      /* m, margin of the present choice */
     int32_t done[2];      /* nodes where the trees meet; done[1] = -1: none */
     double *path;
     int32_t path_count;
