@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 import qpsolvers
 
-import rrnn_opt as rr
 from rrnn_opt import formulations
 from rrnn_opt.networks import PrimalDual
 from rrnn_opt.symbolic import Tape
 from rrnn_opt.symbolic.qp import FIELDS
+from tests.catalogue import ROBOTS, Scheme, kinematics
+from tests.catalogue import form as once
 from tests.formulations.points import parameters
 
 KNOWN = {
@@ -39,21 +40,14 @@ def variant(request):
     return request.param
 
 
-@pytest.fixture(scope="module", params=["planar3", "pa10"])
+@pytest.fixture(scope="module", params=ROBOTS)
 def kin(request):
-    return rr.Kinematics(rr.Robot.builtin(request.param))
-
-
-def build(variant, kin):
-    name, option = variant
-    last = len(kin.robot.spheres) - 1
-    options = {"": {}, "contacts": {"contacts": (last,)}, "task": {"task": "pose"}}
-    return getattr(formulations, name)(kin, **options[option])
+    return kinematics(request.param)
 
 
 @pytest.fixture(scope="module")
 def form(variant, kin):
-    return build(variant, kin)
+    return once(kin.robot.name, Scheme(*variant))
 
 
 def optimum(problem):
@@ -72,7 +66,8 @@ def test_declared_for_this_robot(variant, form, kin):
     assert ("qd" in names) == (form.level == "acceleration")
     assert form.citation
     assert all(s.meaning and s.unit for s in (form.decision, *form.parameters))
-    assert form.fingerprint == build(variant, kin).fingerprint
+    again = Scheme(*variant).build(kin.robot.name)
+    assert form.fingerprint == again.fingerprint
 
 
 def test_contacts_come_with_their_parameters(variant, form):
