@@ -55,6 +55,10 @@ def read_bytes(path: str | Path, *, most: int = LARGEST_DOCUMENT) -> bytes:
 def read_text(path: str | Path, *, most: int = LARGEST_DOCUMENT) -> str:
     """The text of a UTF-8 file.
 
+    Args:
+        path: the file.
+        most: size from which it is refused, bytes.
+
     Raises:
         DocumentError: as for ``read_bytes``, or it is not UTF-8.
     """

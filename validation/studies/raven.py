@@ -113,10 +113,6 @@ def raven_rows(starts: int = 1000, *, jobs: int = 1) -> list[dict[str, Any]]:
 
 def page(rows: Sequence[Mapping[str, Any]], command: str) -> str:
     """The rows' summary as a page."""
-    solved = [row for row in rows if row["solved"]]
-    low, high = wilson(len(solved), len(rows))
-    others = Counter(row["status"] for row in rows if not row["solved"])
-    ends = ", ".join(f"{v} {k}" for k, v in sorted(others.items())) or "none"
     lines = [
         "# Raven II through an opening of 4 cm",
         "",
@@ -137,6 +133,17 @@ def page(rows: Sequence[Mapping[str, Any]], command: str) -> str:
         "",
         "| what | value |",
         "| --- | --- |",
+    ]
+    return "\n".join([*lines, *_summary(rows)]) + "\n"
+
+
+def _summary(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Rows of the table: how the starts ended, what they took, how near it came."""
+    solved = [row for row in rows if row["solved"]]
+    low, high = wilson(len(solved), len(rows))
+    others = Counter(row["status"] for row in rows if not row["solved"])
+    ends = ", ".join(f"{v} {k}" for k, v in sorted(others.items())) or "none"
+    lines = [
         f"| starts | {len(rows)} |",
         f"| solved and proved | {len(solved)} ({low:.4f} to {high:.4f}) |",
         f"| other ends | {ends} |",
@@ -154,8 +161,7 @@ def page(rows: Sequence[Mapping[str, Any]], command: str) -> str:
             f"| {title}, p50 / p95 / most | {p50:.3g} / {p95:.3g} / {most:.3g} |"
         )
     least = min((row["clearance_m"] for row in solved), default=float("nan"))
-    lines.append(f"| least proved clearance [mm] | {1e3 * least:.4g} |")
-    return "\n".join(lines) + "\n"
+    return [*lines, f"| least proved clearance [mm] | {1e3 * least:.4g} |"]
 
 
 def main(argv: Sequence[str] | None = None) -> int:

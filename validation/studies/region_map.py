@@ -44,15 +44,9 @@ def main() -> int:
     law = Law(given.epsilon, given.error, None, 0.5, given.floor)
     tools = Tools.of(kinematics, None)
     pair = telling_joints(tools, region)
-    work = list(tiles(region, pair, (given.grid, given.grid)))
     given.out.mkdir(parents=True, exist_ok=True)
-    lines = Lines(given.out / "tiles.jsonl")
-    done = sum(1 for _ in lines)
     begin = time.monotonic()
-    for item in work[done:]:
-        cell = certify_cell(tools, law, *item, seconds=given.tile_seconds)
-        lines.append(asdict(cell))
-    cells = tuple(_cell(line) for line in lines)
+    cells = _finished(given, tools, law, list(tiles(region, pair, (given.grid,) * 2)))
     spent = time.monotonic() - begin
     found = RegionMap(
         kinematics.robot.name,
@@ -75,6 +69,18 @@ def main() -> int:
         f" step <= {found.step:.4g} s; {spent:.1f} s in this run\n"
     )
     return 0
+
+
+def _finished(
+    given: argparse.Namespace, tools: Tools, law: Law, work: list[tuple[Any, Any, Any]]
+) -> tuple[RegionCell, ...]:
+    """All tiles: those that stand in the folder, then what is left of the work."""
+    lines = Lines(given.out / "tiles.jsonl")
+    done = sum(1 for _ in lines)
+    for item in work[done:]:
+        cell = certify_cell(tools, law, *item, seconds=given.tile_seconds)
+        lines.append(asdict(cell))
+    return tuple(_cell(line) for line in lines)
 
 
 def _arguments() -> argparse.Namespace:
