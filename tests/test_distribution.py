@@ -3,6 +3,8 @@
 import email
 import json
 import os
+import re
+import runpy
 import subprocess
 import sys
 import sysconfig
@@ -46,6 +48,16 @@ def wheel(tmp_path_factory) -> Path:
     assert [n for n in names if n.endswith((".pyc", ".so")) or "cache__" in n] == []
     (built,) = folder.glob("*.whl")
     return built
+
+
+def test_every_requirement_says_the_lowest_version_that_is_tried(capsys):
+    """What .ci/pythons installs beside the wheel."""
+    runpy.run_path(str(ROOT / ".ci" / "lowest.py"), run_name="__main__")
+    lines = capsys.readouterr().out.splitlines()
+    assert all(re.fullmatch(r"[\w.-]+==\d[\w.]*", line) for line in lines)
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    wanted = {r.replace(">=", "==") for r in declared["dependencies"]}
+    assert wanted <= set(lines)
 
 
 @pytest.mark.slow
