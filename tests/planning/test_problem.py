@@ -1,100 +1,19 @@
 """The problem file: read, defaults filled in, or refused in one sentence."""
 
-import copy
 import dataclasses
 import importlib.metadata
 import json
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from rrnn_opt.errors import DocumentError, ProblemError, RobotError
+from rrnn_opt.errors import ProblemError, RobotError
 from rrnn_opt.planning.goals import JointGoal, TipGoal
 from rrnn_opt.planning.problem import Problem
-from rrnn_opt.robot.robot import Frame, JointTree, Limits, Robot, Sphere
 from rrnn_opt.scene import Box, Scene
 from rrnn_opt.scene.library import SCENARIOS, scenario
-
-FAMILIES = sorted((Path(__file__).parents[1] / "data" / "mbm").glob("*.json"))
-
-
-def valid():
-    return {
-        "name": "reach round a post",
-        "robot": "planar3",
-        "frame": "tip",
-        "locked": {},
-        "start": [0.1, 0.2, 0.3],
-        "goal": [
-            {"joints": [1, 1, 1]},
-            {"position": [1, 1, 0]},
-            {
-                "position": [1.5, 1, 0],
-                "tolerance": 0.01,
-                "quat_xyzw": [0, 0, 0.6, 0.8],
-                "angle_tolerance": 0.1,
-            },
-        ],
-        "obstacles": [
-            {
-                "name": "b",
-                "type": "box",
-                "size": [0.1, 0.2, 0.3],
-                "position": [2, 0, 0],
-            },
-            {"type": "cylinder", "radius": 0.1, "length": 0.2, "position": [2, 0, 1]},
-            {
-                "type": "capsule",
-                "radius": 0.1,
-                "length": 1,
-                "position": [0, 2, 1],
-                "quat_xyzw": [0.6, 0, 0, 0.8],
-            },
-            {"type": "sphere", "radius": 0.1, "position": [2, 0, 1]},
-            {"type": "halfspace", "normal": [0, 0, 1], "offset": -0.5},
-        ],
-        "margin": 0.01,
-    }
-
-
-def changed(*path_and_value):
-    """The valid problem with the entry at a path set (or, at ..., removed)."""
-    *path, key, value = path_and_value
-    problem = at = valid()
-    for step in path:
-        at = at[step]
-    if value is ...:
-        del at[key]
-    else:
-        at[key] = value
-    return problem
-
-
-def minimal():
-    return {"robot": "planar3", "start": [0, 0, 0], "goal": {"position": [1, 1, 0]}}
-
-
-def one_joint(kind, low, high, spheres=True):
-    """A robot of one joint at the origin, with a ball of 5 cm on its tip."""
-    row = np.array([1.0])
-    tree = JointTree(
-        parents=np.array([-1]),
-        types=(kind,),
-        placements=np.eye(4)[None],
-        axes=np.array([[0.0, 0.0, 1.0]]),
-        source=np.array([0]),
-        multiplier=row,
-        offset=0 * row,
-    )
-    limits = Limits(np.array([low]), np.array([high]), row, row)
-    ball = Sphere("arm", 0, np.array([1.0, 0.0, 0.0]), 0.05)
-    frames = (Frame("tip", 0, np.eye(4)),)
-    balls = (ball,) if spheres else ()
-    return Robot("one", ("swing",), tree, limits, frames, "tip", balls)
+from tests.planning.documents import changed, minimal, one_joint, valid
 
 
 def test_reads_everything():
@@ -294,121 +213,8 @@ def test_built_in_python():
         Problem(problem.robot, [0], goals=[{"joints": [0]}])
 
 
-def test_files_are_sought_beside_the_problem_file(tmp_path, monkeypatch):
-    asked = {}
-
-    def from_urdf(path, **options):
-        asked.update(path=path, **options)
-        return one_joint("revolute", -1, 1)
-
-    monkeypatch.setattr(Robot, "from_urdf", staticmethod(from_urdf))
-    (tmp_path / "arm").mkdir()
-    for file in ("arm/one.urdf", "balls.json"):
-        (tmp_path / file).write_text("")
-    data = {
-        **minimal(),
-        "robot": "arm/one.urdf",
-        "spheres": "balls.json",
-        "frame": "tip",
-        "locked": {"finger": 0.02},
-        "start": [0],
-    }
-    (tmp_path / "p.json").write_text(json.dumps(data))
-    problem = Problem.load(tmp_path / "p.json")
-    assert asked == {
-        "path": tmp_path / "arm/one.urdf",
-        "tip": "tip",
-        "spheres": tmp_path / "balls.json",
-        "locked": {"finger": 0.02},
-    }
-    written = problem.to_dict()
-    assert (written["robot"], written["spheres"]) == ("arm/one.urdf", "balls.json")
-    assert written["locked"] == {"finger": 0.02}
-    (tmp_path / "balls.json").unlink()
-    with pytest.raises(ProblemError, match="spheres: there is no file"):
-        Problem.load(tmp_path / "p.json")
-
-
-@pytest.mark.parametrize("file", FAMILIES, ids=lambda f: f.stem)
-def test_benchmark_problems_load(file):
-    problem = Problem.load(file)
-    assert problem.robot.name == "panda"
-    assert isinstance(problem.goals[0], JointGoal)
-    assert len(problem.scene) == len(json.loads(file.read_text())["obstacles"])
-
-
-def test_there_is_a_benchmark_problem_of_each_family():
-    assert [f.stem for f in FAMILIES] == [
-        "bookshelf_small",
-        "bookshelf_tall",
-        "box",
-        "table_pick",
-        "table_under_pick",
-    ]
-
-
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_shipped_scenarios_are_problems_from_every_start(name):
     shipped = scenario(name)
     for start in range(len(shipped.starts)):
         Problem.from_dict(shipped.problem(start))
-
-
-JUNK = st.one_of(
-    st.none(),
-    st.booleans(),
-    st.integers(),
-    st.just(10**400),
-    st.floats(),
-    st.text(max_size=8),
-    st.sampled_from(["box", "mesh", "pa10", "planar3", "..", "/", "x.urdf", "tip"]),
-    st.lists(st.floats(), max_size=4),
-    st.lists(st.none(), max_size=2),
-    st.dictionaries(st.text(max_size=5), st.floats(), max_size=2),
-    st.just({1: 2}),
-    st.just({"joints": [0, 0, 0]}),
-)
-
-
-def places(value, path=()):
-    """Paths of all entries inside nested dicts and lists."""
-    if isinstance(value, dict | list):
-        keys = value.keys() if isinstance(value, dict) else range(len(value))
-        for key in list(keys):
-            yield (*path, key)
-            yield from places(value[key], (*path, key))
-
-
-@settings(derandomize=True, deadline=None, max_examples=200)
-@given(st.data())
-def test_mutated_problems_are_read_or_refused(data):
-    problem = copy.deepcopy(valid())
-    for _ in range(data.draw(st.integers(1, 3))):
-        where = list(places(problem))
-        if not where:
-            break
-        *path, key = data.draw(st.sampled_from(where))
-        at = problem
-        for step in path:
-            at = at[step]
-        action = data.draw(st.sampled_from(["replace", "delete", "add"]))
-        if action == "replace":
-            at[key] = copy.deepcopy(data.draw(JUNK))
-        elif action == "delete":
-            del at[key]
-        elif isinstance(at, dict):
-            at[data.draw(st.text(max_size=8))] = copy.deepcopy(data.draw(JUNK))
-        else:
-            at.append(copy.deepcopy(data.draw(JUNK)))
-    written, refusal = outcome(problem)
-    assert "\n" not in refusal
-    if not refusal:
-        json.dumps(written, allow_nan=False)
-        assert outcome(written) == (written, "")
-
-
-def outcome(data):
-    try:
-        return Problem.from_dict(data).to_dict(), ""
-    except (ProblemError, DocumentError, RobotError) as error:
-        return None, str(error)
