@@ -60,17 +60,20 @@ def case(kinematics: Kinematics) -> ClaimCase:
         "epsilon": [1],
     }
     proof = Proof(claim, (), (terms,), (rule,), example)
-    discriminant = 1 - 4 * epsilon.sx * c.sx
-    variant = Claim(
+    mutation = Mutation("4 epsilon c of any size", _any_size())
+    return ClaimCase(proof, mutation, (), Repair(_first_order()))
+
+
+def _any_size() -> Claim:
+    """The discriminant of eps b^2 - b + c is not negative, whatever eps and c are."""
+    c, epsilon = scalars("c epsilon")
+    return Claim(
         "C23",
         "eq. (10)",
         "a real beta is there for every epsilon and c",
         (c, epsilon),
-        Relation(discriminant, ">=0"),
+        Relation(1 - 4 * epsilon.sx * c.sx, ">=0"),
         domain=not_negative(c, epsilon),
-    )
-    return ClaimCase(
-        proof, Mutation("4 epsilon c of any size", variant), (), Repair(_first_order())
     )
 
 

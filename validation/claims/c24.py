@@ -66,18 +66,10 @@ def case(kinematics: Kinematics) -> ClaimCase:
         order="discrete",
         jacobian="moving",
     )
+    zero, factor = ca.SX(0), h.sx * epsilon.sx
+    given = {"x": x.sx, "s": p, "low": low.sx, "high": high.sx}
     joints = tuple(
-        Instance(
-            0,
-            {
-                "x": x.sx[i],
-                "s": p[i],
-                "y": ca.SX(0),
-                "low": low.sx[i],
-                "high": high.sx[i],
-            },
-            factor=h.sx * epsilon.sx,
-        )
+        Instance(0, {k: v[i] for k, v in given.items()} | {"y": zero}, factor=factor)
         for i in range(JOINTS)
     )
     terms: tuple[Term, ...] = (Given(0), *joints, Given(1, 0, h.sx * size / 2))
