@@ -86,6 +86,7 @@ def draw(axes: Any, problem: Problem, path: Array, title: str) -> None:
     axes.set_xlim(-0.4, 2.6)
     axes.set_ylim(-1.7, 1.9)
     axes.set_xlabel("x [m]", fontsize=8)
+    axes.set_ylabel("y [m]", fontsize=8)
     axes.tick_params(labelsize=7)
 
 

@@ -56,6 +56,8 @@ def panel(axes: Any, curves: list[Array], title: str) -> None:
     axes.set_ylim(-0.03, 0.75)
     dress(axes, title, "exploration", np.arange(1.0, len(longest) + 1.0))
     axes.set_xlim(0.5, max(len(longest), 4) + 0.5)
+    axes.set_ylabel("activity x", fontsize=8)
+    axes.xaxis.get_major_locator().set_params(integer=True)
 
 
 def picture(starts: int = STARTS) -> bytes:
