@@ -1,4 +1,4 @@
-# make demo | test | check | pythons | bench | soak | docs | clean
+# make demo | test | check | pythons | bench | soak | sanitize | docs | clean
 # Everything happens in .venv here; it is made when it is missing.
 
 PYTHON ?= python3
@@ -9,7 +9,7 @@ PIP := $(PY) -m pip --disable-pip-version-check install --quiet
 RRNN := $(PY) -m rrnn_opt.cli.start
 
 .DELETE_ON_ERROR:
-.PHONY: help demo test check pythons dev bench soak docs clean
+.PHONY: help demo test check pythons dev bench soak sanitize docs clean
 
 help:
 	@sed -n 's/^# make/make/p' Makefile
@@ -34,6 +34,9 @@ bench: $(VENV)/test.stamp
 soak: $(VENV)/test.stamp
 	$(PY) -m benchmarks.interval_soundness
 	$(PY) -m benchmarks.soak
+
+sanitize: $(VENV)/test.stamp
+	$(PY) -m benchmarks.sanitize --jobs $(JOBS)
 
 docs: $(VENV)/dev.stamp
 	$(PY) -m sphinx -q -W --keep-going -b html docs docs/_build/html

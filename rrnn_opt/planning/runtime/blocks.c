@@ -10,6 +10,7 @@ static double norm_of(const double *a)
 
 static void pose_at(const double *q, pose_t *pose)
 {
+    memset(pose->centers + 3 * NSP, 0, LANES * sizeof(double)); /* read by idle lanes */
     k_frames(q, pose->axes, pose->origins, pose->centers, pose->tip_position,
              pose->tip_rotation);
 }

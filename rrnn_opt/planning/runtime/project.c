@@ -115,7 +115,7 @@ static int32_t rank_violations(block_t *block, violation_t *worst, int32_t found
 {
     for (int32_t l = 0; l < LANES; l++) {
         const double residual = block->drift[l] - block->right[l];
-        if (residual >= -1e-9 || (block->used >> l & 1u) != 0 ||
+        if (!(residual < -1e-9) || (block->used >> l & 1u) != 0 ||
             (found == most && residual >= worst[found - 1].residual)) {
             continue;
         }
