@@ -12,19 +12,13 @@ import pathlib
 import casadi as ca
 
 from rrnn_opt import emit
-from rrnn_opt.formulations.slide import (
-    joint_attraction,
-    offset,
-    row,
-    step_box,
-    tip_attraction,
-)
+from rrnn_opt.formulations.slide import offset, row, step_box
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.dispatch import dispatch
+from rrnn_opt.planning.drives import drive_functions, emitted_function
 from rrnn_opt.planning.tables import LANES, tables
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.robot.motion_bound import motion_bound, travel
-from rrnn_opt.robot.robot import JointTree
 from rrnn_opt.scene.distance import PRIMITIVES, distance_function
 
 RUNTIME = (
@@ -47,18 +41,6 @@ RUNTIME = (
 PREFIX = "rrnn_planner_"
 
 
-def _function(
-    name: str, inputs: dict[str, ca.SX], outputs: dict[str, ca.SX]
-) -> ca.Function:
-    return ca.Function(
-        name,
-        list(inputs.values()),
-        [ca.densify(value) for value in outputs.values()],
-        list(inputs),
-        list(outputs),
-    )
-
-
 def frames_function(kin: Kinematics) -> ca.Function:
     """``q -> axes, origins, centers, tip_position, tip_rotation``.
 
@@ -67,7 +49,7 @@ def frames_function(kin: Kinematics) -> ca.Function:
     """
     tip, centres = kin.pose(), ca.transpose(kin.sphere_centres())
     missing = -centres.shape[0] % LANES
-    return _function(
+    return emitted_function(
         "k_frames",
         {"q": kin.q},
         {
@@ -93,17 +75,17 @@ def row_functions(robot: Robot) -> list[ca.Function]:
     lower, upper = step_box(q, low, high, radius)
     frame = {"axes": axes, "origins": origins}
     return [
-        _function(
+        emitted_function(
             "k_row",
             {**frame, "mask": mask, "point": point, "n": n},
             {"row": row(tree, axes, origins, mask, point, n)},
         ),
-        _function(
+        emitted_function(
             "k_offset",
             {"gap": gap, "margin": margin, "bound": bound},
             {"right": offset(gap, margin, bound)},
         ),
-        _function(
+        emitted_function(
             "k_box",
             {"q": q, "lower": low, "upper": high, "radius": radius},
             {"least": lower, "most": upper},
@@ -122,89 +104,11 @@ def motion_functions(robot: Robot) -> list[ca.Function]:
     rates = {"u": u, "reach": lever, "mask": mask}
     bound, way = motion_bound(tree, u, lever, mask), travel(tree, u, lever, mask)
     return [
-        _function("k_velocity", {**place, "u": u}, {"velocity": ca.vertcat(*along)}),
-        _function("k_motion_bound", rates, {"bound": bound}),
-        _function("k_travel", rates, {"way": way}),
-    ]
-
-
-def _tip_jacobian(
-    tree: JointTree, moving: tuple[int, ...], axes: ca.SX, origins: ca.SX, tip: ca.SX
-) -> ca.SX:
-    """Position Jacobian of the tip from the world axes, (3, nv)."""
-    mask = ca.SX([float(k in moving) for k in range(tree.nj)])
-    eye = ca.SX.eye(3)
-    return ca.vertcat(
-        *(row(tree, axes, origins, mask, tip, eye[:, i]) for i in range(3))
-    )
-
-
-def _turn_jacobian(tree: JointTree, moving: tuple[int, ...], axes: ca.SX) -> ca.SX:
-    """Angular velocity Jacobian of the tip, (3, nv)."""
-    columns = [ca.SX.zeros(3) for _ in range(1 + int(max(tree.source)))]
-    for k in moving:
-        if tree.types[k] != "prismatic":
-            columns[int(tree.source[k])] += float(tree.multiplier[k]) * axes[:, k]
-    return ca.horzcat(*columns)
-
-
-def _miss(goal: ca.SX, axes: ca.SX, half: ca.SX, tip: ca.SX) -> ca.SX:
-    """From the tip to the nearest point of the goal's region, (3, 1), m."""
-    local = axes.T @ (goal - tip)
-    return axes @ (local - ca.fmax(-half, ca.fmin(local, half)))
-
-
-def _turn_error(turn: ca.SX, wanted: ca.SX, free: ca.SX) -> tuple[ca.SX, ca.SX]:
-    """Twist towards the wanted axes, (3, 1), and chord 2 sin(angle / 2).
-
-    With all three axes wanted both are means over the three; with a free one
-    only that axis has to point the right way, and nothing turns about it.
-    """
-    weights = [free[i] + (1 - ca.sum1(free)) / 2 for i in range(3)]
-    columns = [(turn[:, i], wanted[:, i]) for i in range(3)]
-    pairs = list(zip(weights, columns, strict=True))
-    twist = sum((c * ca.cross(a, b) for c, (a, b) in pairs), ca.SX(0))
-    return twist, ca.sqrt(sum((c * ca.sumsqr(a - b) for c, (a, b) in pairs), ca.SX(0)))
-
-
-def drive_functions(robot: Robot) -> list[ca.Function]:
-    """Attractions: to a posture, to a tip position or region, to a tip pose."""
-    tree, nj, nv = robot.tree, robot.tree.nj, robot.nv
-    moving = tree.ancestors(robot.frame().joint)
-    axes, origins = ca.SX.sym("axes", 3, nj), ca.SX.sym("origins", 3, nj)
-    tip, turn = ca.SX.sym("tip_position", 3), ca.SX.sym("tip_rotation", 3, 3)
-    goal, wanted = ca.SX.sym("position", 3), ca.SX.sym("rotation", 3, 3)
-    half, free = ca.SX.sym("half", 3), ca.SX.sym("free", 3)
-    q, target, length = ca.SX.sym("q", nv), ca.SX.sym("target", nv), ca.SX.sym("length")
-    linear = _tip_jacobian(tree, moving, axes, origins, tip)
-    about = wanted @ free
-    angular = _turn_jacobian(tree, moving, axes)
-    held = angular - about @ (about.T @ angular)
-    miss = _miss(goal, wanted, half, tip)
-    way = ca.sqrt(ca.sumsqr(miss))
-    twist, chord = _turn_error(turn, wanted, free)
-    to_pose = tip_attraction(ca.vertcat(linear, held), ca.vertcat(miss, twist), length)
-    frame = {"axes": axes, "origins": origins, "tip_position": tip}
-    place = {"position": goal, "rotation": wanted, "half": half}
-    return [
-        _function(
-            "k_drive_joint",
-            {"q": q, "target": target, "length": length},
-            {"w": joint_attraction(q, target, length)},
+        emitted_function(
+            "k_velocity", {**place, "u": u}, {"velocity": ca.vertcat(*along)}
         ),
-        _function(
-            "k_drive_position",
-            {**frame, **place, "length": length},
-            {
-                "w": tip_attraction(linear, miss, length),
-                "error": ca.vertcat(way, 0),
-            },
-        ),
-        _function(
-            "k_drive_pose",
-            {**frame, "tip_rotation": turn, **place, "free": free, "length": length},
-            {"w": to_pose, "error": ca.vertcat(way, chord)},
-        ),
+        emitted_function("k_motion_bound", rates, {"bound": bound}),
+        emitted_function("k_travel", rates, {"way": way}),
     ]
 
 
@@ -215,8 +119,8 @@ def pair_functions() -> list[ca.Function]:
     n = (b - a) / ca.fmax(d, 1e-12)
     points = {"a": a, "b": b}
     return [
-        _function("k_distance_pair", points, {"d": d, "n": n}),
-        _function("k_square", points, {"square": ca.sumsqr(b - a)}),
+        emitted_function("k_distance_pair", points, {"d": d, "n": n}),
+        emitted_function("k_square", points, {"square": ca.sumsqr(b - a)}),
     ]
 
 
@@ -225,14 +129,14 @@ def cell_functions(cell: MemoryCell) -> list[ca.Function]:
     x = ca.SX.sym("x")
     return [
         cell.function("k_memory"),
-        _function("k_sqrt", {"x": x}, {"root": ca.sqrt(x)}),
+        emitted_function("k_sqrt", {"x": x}, {"root": ca.sqrt(x)}),
     ]
 
 
 def gap_function(kind: str) -> ca.Function:
     """Distance of a point to a solid without its normal: ``p, shape -> d``."""
     p, shape = ca.SX.sym("p", 3), ca.SX.sym("shape", 16)
-    return _function(
+    return emitted_function(
         f"k_gap_{kind}", {"p": p, "shape": shape}, {"d": PRIMITIVES[kind](p, shape)[0]}
     )
 
@@ -241,7 +145,7 @@ def bounds_function() -> ca.Function:
     """Distance of a point to a box along the world's axes: ``p, bounds -> d``."""
     p, bounds = ca.SX.sym("p", 3), ca.SX.sym("bounds", 6)
     out = ca.fmax(ca.fmax(bounds[:3] - p, p - bounds[3:]), 0)
-    return _function(
+    return emitted_function(
         "k_gap_bounds", {"p": p, "bounds": bounds}, {"d": ca.sqrt(ca.sumsqr(out))}
     )
 

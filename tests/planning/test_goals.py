@@ -10,8 +10,8 @@ import rrnn_opt as rr
 from rrnn_opt.check.plans.goal import nearest_goal
 from rrnn_opt.check.plans.robot.model import read_model
 from rrnn_opt.planning import Problem
+from rrnn_opt.planning.drives import drive_functions
 from rrnn_opt.planning.goals import TipGoal, goals_from_data
-from rrnn_opt.planning.kernel import drive_functions
 from rrnn_opt.planning.request import tip_target
 
 PLACE = [0.45, 0.1, 0.6]

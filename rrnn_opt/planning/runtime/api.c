@@ -52,6 +52,7 @@ static int start_search(planner_t *planner, const request_t *request)
 RRNN_EXPORT void NAME(free)(planner_t *planner)
 {
     if (planner != NULL) {
+        free(planner->world.open);
         free(planner->world.key);
         free(planner->world.node_key);
         free(planner->world.stamp);
@@ -79,6 +80,7 @@ RRNN_EXPORT planner_t *NAME(create)(const settings_t *settings, const request_t 
     planner->steering = settings->steering;
     world_open(&planner->world, request);
     planner->world.margin = request->margin;
+    planner->world.open = malloc(OPEN_MAX * sizeof(block_t));
     planner->world.key = malloc((solids * NB + 1) * sizeof(double));
     planner->world.node_key = malloc((nodes + 1) * sizeof(double));
     planner->world.stamp = calloc(solids + nodes + 1, sizeof(uint32_t));
@@ -91,8 +93,8 @@ RRNN_EXPORT planner_t *NAME(create)(const settings_t *settings, const request_t 
     memcpy(planner->sample_lower, request->sample_lower, sizeof planner->lower);
     memcpy(planner->sample_upper, request->sample_upper, sizeof planner->upper);
     rng_seed(&planner->rng, request->seed);
-    if (planner->world.key == NULL || planner->world.node_key == NULL ||
-        planner->world.stamp == NULL || planner->tips == NULL) {
+    if (planner->world.open == NULL || planner->world.key == NULL ||
+        planner->world.node_key == NULL || planner->world.stamp == NULL || planner->tips == NULL) {
         NAME(free)(planner);
         return NULL;
     }

@@ -97,7 +97,7 @@ typedef struct {
     double seen[3 * NSP]; /* centres when `way` was brought up to date */
     int32_t placed;       /* 0: not since the last reset */
     double group_way[NGP + 1]; /* m, by which pairs of a group came nearer */
-    block_t open[OPEN_MAX];
+    block_t *open;        /* room for OPEN_MAX */
     int32_t open_count;
     double motion[4 * NSP];   /* J u and B(u) of the spheres, block by block */
     uint32_t moved[NB], measure; /* blocks whose motion is that of the measure */
