@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.formulations.task import tracking, velocity
@@ -22,6 +23,7 @@ _NOTES = (
 )
 
 
+@checked()
 def classical(
     kin: Kinematics,
     *,

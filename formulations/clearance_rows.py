@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.contacts import clearance_rows as rows
 from rrnn_opt.formulations.contacts import contacts_of
@@ -30,6 +31,7 @@ _NOTES = (
 )
 
 
+@checked()
 def clearance_rows(
     kin: Kinematics,
     *,

@@ -58,7 +58,7 @@ def contacts_of(kin: Kinematics, spheres: Sequence[int]) -> Contacts:
     normals = Symbol.matrix("normals", (3, k), "1", meaning)
     gaps = Symbol.vector("clearances", k, "m", "gaps between spheres and obstacles")
     jacobians = tuple(_jacobian(kin, index) for index in spheres)
-    return Contacts(jacobians, normals, gaps, (normals, gaps) if spheres else ())
+    return Contacts(jacobians, normals, gaps, (normals, gaps) if len(spheres) else ())
 
 
 def near(clearance: ca.SX, distance: float) -> ca.SX:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.manipulability import gram_determinant
 from rrnn_opt.formulations.task import require_positive, tracking
@@ -21,6 +22,7 @@ _NOTES = (
 )
 
 
+@checked()
 def damped_least_squares(
     kin: Kinematics,
     *,

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.contacts import contacts_of
 from rrnn_opt.formulations.task import follow, require_positive, tracking
@@ -22,6 +23,7 @@ _NOTES = (
 )
 
 
+@checked()
 def gradient_projection(
     kin: Kinematics,
     *,

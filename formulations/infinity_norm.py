@@ -6,6 +6,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
@@ -24,6 +25,7 @@ _NOTES = (
 )
 
 
+@checked()
 def infinity_norm(
     kin: Kinematics,
     *,

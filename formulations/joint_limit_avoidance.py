@@ -5,6 +5,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.formulations.task import POSITION, follow, require_positive, tracking
@@ -20,6 +21,7 @@ _NOTES = (
 )
 
 
+@checked()
 def joint_limit_avoidance(
     kin: Kinematics,
     *,

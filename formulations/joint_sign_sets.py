@@ -7,6 +7,7 @@ from typing import Literal
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.contacts import Contacts, contacts_of, near
@@ -34,6 +35,7 @@ _NOTES = (
 )
 
 
+@checked()
 def joint_sign_sets(
     kin: Kinematics,
     *,

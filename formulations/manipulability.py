@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.formulations.task import follow, require_positive, tracking
@@ -40,6 +41,7 @@ def gram_determinant(kin: Kinematics, frame: str | None = None) -> ca.SX:
     return ca.det(J @ J.T if J.size1() <= J.size2() else J.T @ J)
 
 
+@checked()
 def manipulability(
     kin: Kinematics,
     *,

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.acceleration_limits import acceleration_bounds
 from rrnn_opt.formulations.contacts import Contacts, contacts_of
@@ -38,6 +39,7 @@ _NOTES = (
 )
 
 
+@checked()
 def method2(
     kin: Kinematics,
     *,

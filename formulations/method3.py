@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.task import require_positive, target, tracking, velocity
 from rrnn_opt.robot import Kinematics
@@ -21,6 +22,7 @@ _NOTES = (
 )
 
 
+@checked()
 def method3(
     kin: Kinematics,
     *,

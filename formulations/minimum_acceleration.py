@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.acceleration_limits import braking_bounds
 from rrnn_opt.formulations.task import (
@@ -27,6 +28,7 @@ _NOTES = (
 )
 
 
+@checked()
 def minimum_acceleration(
     kin: Kinematics,
     *,

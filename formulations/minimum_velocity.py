@@ -6,6 +6,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import NotFiniteError, RrnnError, ShapeError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
@@ -22,6 +23,7 @@ _NOTES = (
 )
 
 
+@checked()
 def minimum_velocity(
     kin: Kinematics,
     *,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import casadi as ca
 import numpy as np
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.formulations.task import require_positive, target, tracking, velocity
@@ -21,6 +22,7 @@ _NOTES = (
 )
 
 
+@checked()
 def model35(
     kin: Kinematics,
     *,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
@@ -20,6 +21,7 @@ _NOTES = (
 )
 
 
+@checked()
 def model36(
     kin: Kinematics,
     *,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.task import require_positive, tracking, velocity
 from rrnn_opt.robot import Kinematics
@@ -19,6 +20,7 @@ _NOTES = (
 )
 
 
+@checked()
 def model43(
     kin: Kinematics, *, damping: float = 1e-4, frame: str | None = None
 ) -> Formulation:

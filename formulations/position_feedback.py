@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.formulations.task import require_positive, target, tracking, velocity
@@ -26,6 +27,7 @@ _FORWARD = (
 )
 
 
+@checked()
 def position_feedback(
     kin: Kinematics,
     *,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.formulations.task import POSITION, follow, require_positive, tracking
@@ -16,6 +17,7 @@ _NOTES = (
 )
 
 
+@checked()
 def repetitive_motion(
     kin: Kinematics,
     *,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.contacts import contacts_of
 from rrnn_opt.formulations.limits import velocity_bounds
@@ -28,6 +29,7 @@ _NOTES = (
 )
 
 
+@checked()
 def sign_rows(
     kin: Kinematics,
     *,

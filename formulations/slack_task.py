@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.contacts import clearance_rows, contacts_of
 from rrnn_opt.formulations.limits import velocity_bounds
@@ -29,6 +30,7 @@ _NOTES = (
 )
 
 
+@checked()
 def slack_task(
     kin: Kinematics,
     *,

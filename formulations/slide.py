@@ -30,6 +30,7 @@ from collections.abc import Sequence
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.robot.robot import PRISMATIC, JointTree
@@ -108,6 +109,7 @@ def tip_attraction(
     return w * ca.fmin(1, length / ca.fmax(norm, 1e-30))
 
 
+@checked()
 def slide(kin: Kinematics, contacts: Sequence[int] = ()) -> Formulation:
     """The QP of one step with one contact row for each named sphere.
 

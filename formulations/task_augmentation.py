@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.contacts import Contacts, contacts_of, near
@@ -31,6 +32,7 @@ _NOTES = (
 )
 
 
+@checked()
 def task_augmentation(
     kin: Kinematics,
     *,

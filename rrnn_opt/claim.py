@@ -14,6 +14,7 @@ from fractions import Fraction
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.symbolic.symbol import Symbol, require_declared, require_names
 from rrnn_opt.symbolic.tape import fingerprint
@@ -23,6 +24,7 @@ ORDERS = ("first-order", "second-order", "discrete")
 JACOBIANS = ("frozen", "moving")
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Relation:
     """``expression sense``, element by element, e.g. ``x'P(x) >= 0``.
@@ -50,6 +52,7 @@ class Relation:
         return self.sense in (">0", "<0")
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
     """An assumption under which a claim is made.
@@ -69,6 +72,7 @@ class Hypothesis:
     added: bool = False
 
 
+@checked()
 @dataclass(frozen=True)
 class Range:
     """A closed interval for every element of one variable.
@@ -96,6 +100,7 @@ class Range:
                 raise RrnnError(f"range of '{self.variable}': {low} exceeds {high}")
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Claim:
     """For all variables in the domain: hypotheses imply the goal.

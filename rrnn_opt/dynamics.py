@@ -10,6 +10,7 @@ from typing import Any, ClassVar, Self
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.symbolic.symbol import (
@@ -24,6 +25,7 @@ Part = Any
 """An SX column; None may be given for zeros, and becomes SX."""
 
 
+@checked()
 @dataclass(frozen=True)
 class Euler:
     """Explicit Euler, ``x+ = x + h f(x)``.

@@ -25,6 +25,19 @@ class ShapeError(RrnnError):
         super().__init__(f"{name}: expected shape {want}, got {got}")
 
 
+class ArgumentError(RrnnError):
+    """An argument is of another kind than the signature says.
+
+    Attributes:
+        name: function and argument.
+        message: what was expected and what was given.
+    """
+
+    def __init__(self, name: str, message: str) -> None:
+        self.name, self.message = name, message
+        super().__init__(f"{name}: {message}")
+
+
 class NotFiniteError(RrnnError):
     """A number that must be finite is NaN or infinite.
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import Dynamics
 from rrnn_opt.embedding import documents, render, render_source, render_tests
 from rrnn_opt.embedding.build_files import build_files
@@ -46,6 +47,7 @@ class _Parts:
     words: dict[str, str]
 
 
+@checked()
 def generate(
     dynamics: Dynamics,
     *,

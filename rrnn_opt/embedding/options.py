@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Final, Literal, get_args
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.embedding.words import require_prefix
 from rrnn_opt.emit.prologue import Real, Trig, require_real, require_trig
 from rrnn_opt.errors import RrnnError
@@ -14,6 +15,7 @@ Target = Literal["host", "cortex-m4f", "cortex-m7"]
 MAX_STEPS: Final = 100_000
 
 
+@checked()
 @dataclass(frozen=True)
 class Options:
     """Settings of a package.

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.embedding.words import require_prefix
 from rrnn_opt.errors import RrnnError
 
@@ -25,6 +26,7 @@ STALE = 3600.0
 _PLAIN = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}")
 
 
+@checked()
 @dataclass(frozen=True)
 class Package:
     """Files of a controller.

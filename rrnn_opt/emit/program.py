@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.emit.arrays import Array, Slot, address_of
 from rrnn_opt.emit.c99 import c_function, require_identifier
 from rrnn_opt.emit.host import Built, build, load
@@ -168,6 +169,7 @@ def _targets(name: str, entry: Entry, out: Sequence[Array]) -> list[int]:
     return [s.result(a) for s, a in zip(entry.outputs, out, strict=True)]
 
 
+@checked()
 def compile(
     functions: ca.Function | Sequence[ca.Function],
     *,

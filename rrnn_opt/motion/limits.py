@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rrnn_opt.arguments import require_parts
 from rrnn_opt.check.plans import hermite
 from rrnn_opt.errors import NotFiniteError, RetimeError, ShapeError
 from rrnn_opt.motion.trajectory import Array, Trajectory
@@ -25,6 +26,7 @@ def require_limits(limits: Limits, nv: int) -> None:
         NotFiniteError: a velocity or acceleration limit is NaN or infinite.
         RetimeError: one is not positive.
     """
+    require_parts(limits, "limits", ("lower", "upper", "velocity", "acceleration"))
     for name in ("lower", "upper", "velocity", "acceleration"):
         values = np.asarray(getattr(limits, name))
         if values.shape != (nv,):

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import NotFiniteError, ShapeError
 
 Array = NDArray[np.float64]
@@ -16,6 +17,7 @@ SAME = 1e-9
 TINY = 1e-300
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Path:
     """Waypoints joined by straight lines.

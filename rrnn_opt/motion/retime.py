@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RetimeError
 from rrnn_opt.motion.limits import position_excess, require_limits, slow_down
 from rrnn_opt.motion.parametrised import parametrised
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from rrnn_opt.robot import Limits
 
 
+@checked()
 @dataclass(frozen=True)
 class RetimeSettings:
     """How finely a path is timed.
@@ -44,6 +46,7 @@ class RetimeSettings:
     overshoot: float = 1e-10
 
 
+@checked(skip=("limits",))
 def retime(
     waypoints: ArrayLike,
     limits: Limits,

@@ -7,12 +7,14 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.motion.path import SAME, Array, Path
 
 SegmentIsFree = Callable[[Array, Array], bool]
 ATTEMPTS = 100
 
 
+@checked()
 def shortcut(
     waypoints: ArrayLike,
     segment_is_free: SegmentIsFree,

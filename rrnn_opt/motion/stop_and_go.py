@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.motion.limits import ROOM, require_limits
 from rrnn_opt.motion.path import Path
 from rrnn_opt.motion.trajectory import Trajectory
@@ -18,6 +19,7 @@ SHORTEST = 1e-3
 """Least duration of a piece, s; that of a motion that goes nowhere."""
 
 
+@checked(skip=("limits",))
 def stop_and_go(waypoints: ArrayLike, limits: Limits) -> Trajectory:
     """Rest at every waypoint, straight lines between them.
 

@@ -12,12 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.check.plans import hermite
 from rrnn_opt.errors import NotFiniteError, RetimeError, ShapeError
 
 Array = NDArray[np.float64]
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Trajectory:
     """What is delivered: between rows the cubic Hermite of ``q`` and ``qd``.
@@ -36,6 +38,7 @@ class Trajectory:
     qdd: Array
 
     @staticmethod
+    @checked()
     def from_rows(t: ArrayLike, q: ArrayLike, qd: ArrayLike) -> Trajectory:
         """A trajectory from its rows; ``qdd`` follows from them.
 

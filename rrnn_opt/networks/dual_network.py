@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks.coefficients import coefficients, inverse_hessian
 from rrnn_opt.networks.dual_parts import DualParts, DualProjection
 
 
+@checked()
 @dataclass(frozen=True)
 class DualNetwork(DualProjection[NeuralDynamics]):
     """The network whose neurons are the dual variables alone.

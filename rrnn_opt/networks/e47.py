@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import DiscreteDynamics
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks.lvi94 import length
@@ -13,6 +14,7 @@ from rrnn_opt.networks.parts import lagrangian_parts, transposed
 from rrnn_opt.networks.projection import ProjectionMap
 
 
+@checked()
 @dataclass(frozen=True)
 class E47(ProjectionMap):
     """``y+ = P_Z(y - rho g(y))``, y = (u, lambda, mu).

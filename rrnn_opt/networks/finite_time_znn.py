@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import casadi as ca
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
@@ -14,6 +15,7 @@ from rrnn_opt.networks.kkt import OPERATIONS, Kkt, kkt_needs
 from rrnn_opt.networks.network import ARITHMETIC, Needs, Network, require_positive
 
 
+@checked()
 @dataclass(frozen=True)
 class FiniteTimeZnn(Network):
     """``d error / dt = -gamma phi(error)`` on the KKT equations.

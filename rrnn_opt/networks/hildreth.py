@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import DiscreteDynamics
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks.dual_parts import DualParts, DualProjection
@@ -16,6 +17,7 @@ SILENT = 1e-12
 """A row a with a M a' below this is left out, as in the C text."""
 
 
+@checked()
 @dataclass(frozen=True)
 class Hildreth(DualProjection[DiscreteDynamics], ProjectionMap):
     """One sweep over the neurons of ``DualNetwork``, each solved in its turn.

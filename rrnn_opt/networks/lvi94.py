@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import DiscreteDynamics
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks.parts import lagrangian_parts, transposed
@@ -15,6 +16,7 @@ TINY = 1e-30
 """Keeps 0/0 out of the step length where the error is zero."""
 
 
+@checked()
 @dataclass(frozen=True)
 class Lvi94(ProjectionMap):
     """``y+ = y - rho (I + H') e(y)``, y = (u, lambda, mu).

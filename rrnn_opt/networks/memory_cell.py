@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError
 
 
+@checked()
 @dataclass(frozen=True)
 class MemoryCell:
     """One shunting short-term-memory cell, integrated exactly.

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import casadi as ca
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks.kkt import OPERATIONS, Kkt, kkt_needs
@@ -15,6 +16,7 @@ from rrnn_opt.networks.network import ARITHMETIC, Needs, Network, require_positi
 from rrnn_opt.symbolic.symbol import Symbol
 
 
+@checked()
 @dataclass(frozen=True)
 class NoiseTolerantZnn(Network):
     """``d error / dt = -gamma error - integral s``, s' = error.

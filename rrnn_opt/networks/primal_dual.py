@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks.coefficients import coefficients
@@ -14,6 +15,7 @@ from rrnn_opt.networks.parts import lagrangian_parts
 from rrnn_opt.networks.projection import ProjectionNetwork
 
 
+@checked()
 @dataclass(frozen=True)
 class PrimalDual(ProjectionNetwork[NeuralDynamics]):
     """The rule that turns a formulation into the network (6).

@@ -6,12 +6,14 @@ from dataclasses import dataclass, replace
 
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks.primal_dual import PrimalDual
 from rrnn_opt.networks.projection import ProjectionNetwork
 
 
+@checked()
 @dataclass(frozen=True)
 class SimplifiedLviPdnn(ProjectionNetwork[NeuralDynamics]):
     """``y' = gamma (P_Z(y - (H y + p)) - y)``, y = (u, lambda, mu).

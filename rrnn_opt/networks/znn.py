@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import NeuralDynamics
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks.kkt import OPERATIONS, Kkt, kkt_needs
 from rrnn_opt.networks.network import ARITHMETIC, Needs, Network, require_positive
 
 
+@checked()
 @dataclass(frozen=True)
 class Znn(Network):
     """``d error / dt = -gamma error`` for error = Phi y - v, y = (u, lambda).

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rrnn_opt.arguments import checked, require_parts
 from rrnn_opt.errors import ProblemError, RobotError
 from rrnn_opt.robot.cover import cover_box, cover_capsule, cover_cylinder
 from rrnn_opt.robot.robot import Robot, Sphere, frozen
@@ -33,6 +34,7 @@ MOST = 200
 """Points of an attached cloud, at most: each is a sphere of the robot."""
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Attached:
     """An object held by the robot.
@@ -109,6 +111,7 @@ def with_attached(robot: Robot, attached: tuple[Attached, ...]) -> Robot:
     spheres, pairs = list(bare.spheres), list(bare.self_pairs)
     joint_of = {sphere.link: sphere.joint for sphere in spheres}
     for index, body in enumerate(attached):
+        require_parts(body, f"attached[{index}]", ("frame", "shape"))
         name = body.shape.name
         if name in joint_of or name in {f.name for f in bare.frames}:
             message = f"'{name}' is already a link of the robot"

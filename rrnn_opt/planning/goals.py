@@ -136,7 +136,7 @@ def _edges(value: object) -> Array:
 
 
 def _require_axis(axis: object, quat_xyzw: Array | None) -> None:
-    if axis not in AXES:
+    if not isinstance(axis, str) or axis not in AXES:
         raise ProblemError("free_axis", f"must be x, y or z, not {fields.shown(axis)}")
     if quat_xyzw is None:
         raise ProblemError("free_axis", "needs quat_xyzw beside it")

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from multiprocessing import get_context
 from typing import Any
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import ProblemError
 from rrnn_opt.planning.planner import plan
 from rrnn_opt.planning.problem import Problem
@@ -21,6 +22,7 @@ AHEAD = 2
 """Shares that a process has, the one it works on included: it never waits."""
 
 
+@checked()
 def plan_many(
     problems: Sequence[Problem],
     *,

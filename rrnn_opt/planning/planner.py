@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt import check
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import ProblemError, RetimeError
 from rrnn_opt.motion import Delivery, Trajectory, deliver
 from rrnn_opt.planning.feasibility import Infeasible, OpenGoals, blocked, open_goals
@@ -31,6 +32,7 @@ SLICE_S = 0.02
 DEFAULT_EXPLORATIONS = 20_000
 
 
+@checked()
 def plan(
     problem: Problem,
     *,

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import ProblemError, RobotError
 from rrnn_opt.files import read_json
 from rrnn_opt.planning.attached import Attached, attached_from_list, with_attached
@@ -28,6 +29,7 @@ _REQUIRED = ("robot", "start", "goal")
 _OPTIONAL = ("name", "frame", "spheres", "locked", "obstacles", "attached", "margin")
 
 
+@checked(skip=("goals", "margin"))
 @dataclass(frozen=True, eq=False)
 class Problem:
     """From ``start`` to any one of ``goals`` among the obstacles of ``scene``.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.networks import MemoryCell
 
 Order = Literal["first", "second"]
@@ -13,6 +14,7 @@ Region = Literal["ball", "posture"]
 Feed = Literal["contact", "band", "failure"]
 
 
+@checked()
 @dataclass(frozen=True)
 class PaperRnn:
     """Algorithm 1 as close to the print as it can run.
@@ -81,6 +83,7 @@ class PaperRnn:
     max_time: float = 10.0
 
 
+@checked()
 @dataclass(frozen=True)
 class SingleRollout:
     """One heuristic rollout of a comparison scheme: a stand-in, not a replica.

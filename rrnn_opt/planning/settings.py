@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.rollout_settings import PaperRnn, RolloutSettings, SingleRollout
 
 
+@checked()
 @dataclass(frozen=True)
 class RandomRnn:
     """The repaired random-RNN planner.

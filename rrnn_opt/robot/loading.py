@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.body import collision_body
 from rrnn_opt.robot.loaded_limits import assumed, stated_limits
@@ -59,6 +60,7 @@ def _quiet() -> Iterator[None]:
             os.close(nowhere)
 
 
+@checked()
 def from_urdf(
     path: str | Path,
     *,

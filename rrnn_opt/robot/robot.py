@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.tree import (
     BASE,
@@ -38,6 +39,7 @@ __all__ = [
 ]
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Robot:
     """A robot arm as data; coordinates are plain joint angles (or metres).
@@ -74,6 +76,7 @@ class Robot:
         """Number of coordinates."""
         return len(self.joint_names)
 
+    @checked()
     def frame(self, name: str | None = None) -> Frame:
         """The frame of that name; the tip when no name is given.
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import ShapeError
 
 Index = NDArray[np.int64]
@@ -45,6 +46,7 @@ def indices(values: ArrayLike) -> Index:
     return array
 
 
+@checked(infinite=("lower", "upper"))
 @dataclass(frozen=True, eq=False)
 class Limits:
     """Joint limits, one number a coordinate.
@@ -62,6 +64,7 @@ class Limits:
     acceleration: Array
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class JointTree:
     """Moving joints in an order in which parents come first.
@@ -122,6 +125,7 @@ class JointTree:
         return common
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Frame:
     """A named frame fixed to a moving joint (or to the base, -1).
@@ -137,6 +141,7 @@ class Frame:
     placement: Array
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Sphere:
     """A collision sphere.

@@ -9,6 +9,7 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import ProblemError
 from rrnn_opt.scene import fields
 from rrnn_opt.scene.mesh import Mesh
@@ -22,6 +23,7 @@ Member = Obstacle | Mesh | Points
 """What may stand in a scene: a shape, the hull of a mesh, or a cloud of points."""
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Scene:
     """Obstacles in the order in which they were given.

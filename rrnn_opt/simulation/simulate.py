@@ -8,6 +8,7 @@ from dataclasses import replace
 import casadi as ca
 import numpy as np
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import DiscreteDynamics
 from rrnn_opt.errors import ProblemError, RrnnError
 from rrnn_opt.networks.step_size import settling_step
@@ -32,6 +33,7 @@ _SHRINK = 0.25
 _ATTEMPTS = 4
 
 
+@checked()
 def simulate(
     scheme: str | Scheme, robot: Robot, task: Task, *, network: Network | None = None
 ) -> SimulationResult:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.scene import Scene
 from rrnn_opt.scene.fields import not_negative
 
@@ -21,6 +22,7 @@ ENTRANCES = ("joint_velocity", "task_velocity", "acceleration")
 LAWS = ("reduced", "literal")
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Curve:
     """Where the tip should be; phi(t) runs from 0 to 2 pi in one period.
@@ -49,6 +51,7 @@ class Curve:
     position: Array | None = None
 
 
+@checked()
 @dataclass(frozen=True)
 class Control:
     """How the scheme is run.
@@ -69,6 +72,7 @@ class Control:
     steps: int | None = None
 
 
+@checked()
 @dataclass(frozen=True)
 class Noise:
     """White Gaussian noise, one draw a control step, held for that step.
@@ -88,6 +92,7 @@ class Noise:
     seed: int = 0
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Task:
     """A whole task file.

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.emit import build, load, prologue
 from rrnn_opt.emit.active_set import FIELDS, Factor, active_set_source
 from rrnn_opt.solving.backends import Told, solution
@@ -92,6 +93,7 @@ def _compiled(
     return function  # type: ignore[no-any-return]
 
 
+@checked()
 @dataclass
 class ActiveSet(DenseSession):
     """The controller's exact fallback as a solver.

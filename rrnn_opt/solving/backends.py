@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.solving.dense_session import require_setup
 from rrnn_opt.solving.infeasible import find_farkas
 from rrnn_opt.solving.parts import Array, Dense, Duals, handed
@@ -97,6 +98,7 @@ def solution(
     )
 
 
+@checked()
 @dataclass
 class Qpsolvers:
     """A ``qpsolvers`` back end, set up anew for every problem.

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.solving.parts import Array, Dense
 from rrnn_opt.solving.protocol import Instance, Solution, Solver
 from rrnn_opt.solving.residual import Residual
@@ -22,6 +23,7 @@ INDEPENDENT = 1e-3
 multipliers well enough to compare them."""
 
 
+@checked()
 @dataclass(frozen=True)
 class Tolerances:
     """What counts as the same answer.

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rrnn_opt.arguments import require_parts
+
 Array = NDArray[np.float64]
 
 OSQP_JUNK = 2143289344.0
@@ -58,6 +60,7 @@ class Dense:
         """The dense parts of ``problem`` (a ``qpsolvers.Problem``)."""
         if isinstance(problem, Dense):
             return problem
+        require_parts(problem, "problem", ("unpack_as_dense",))
         P, q, G, h, A, b, lb, ub = problem.unpack_as_dense()
         q = np.asarray(q, dtype=np.float64).ravel()
         n = q.size

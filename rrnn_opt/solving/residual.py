@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.solving.parts import Array, Dense, Duals, is_usable
 from rrnn_opt.solving.status import Status
 
@@ -48,6 +49,7 @@ class Residual:
 NOT_JUDGED = Residual(math.inf, math.inf, math.inf, math.inf)
 
 
+@checked()
 def kkt_residual(problem: Any, x: ArrayLike | None, duals: Duals | None) -> Residual:
     """The four residuals of a point and its multipliers.
 
@@ -103,6 +105,7 @@ def relative_residual(
     )
 
 
+@checked()
 def judge(
     problem: Any, x: ArrayLike | None, duals: Duals | None, *, tolerance: float
 ) -> tuple[Status, Residual]:

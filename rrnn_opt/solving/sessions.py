@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.solving.backends import TIGHT, Told, solution
 from rrnn_opt.solving.dense_session import DenseSession, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
@@ -36,6 +37,7 @@ def _split(qp: Dense, multipliers: Array) -> Duals:
     return Duals(y=y[: len(qp.b)], z=z, z_box=box)
 
 
+@checked()
 @dataclass
 class OsqpSession(DenseSession):
     """OSQP, updated in place; it starts from its last answer when warm.
@@ -99,6 +101,7 @@ class OsqpSession(DenseSession):
         )
 
 
+@checked()
 @dataclass
 class DaqpSession(DenseSession):
     """DAQP, updated in place: a dense active-set method, exact in few steps.

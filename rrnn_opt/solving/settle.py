@@ -10,6 +10,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import Dynamics
 from rrnn_opt.errors import InfeasibleQpError, RrnnError
 from rrnn_opt.formulation import Formulation
@@ -60,6 +61,7 @@ class SettleInfo:
         return self.residual.worst
 
 
+@checked()
 def settle(
     dyn: Dynamics | Formulation,
     *,

@@ -11,12 +11,14 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError
 
 TIMINGS = ("_s", "_ms", "_us", "_ns")
 """Ends of the names of columns that hold times, which no two runs share."""
 
 
+@checked()
 @dataclass(frozen=True)
 class Case:
     """One case of a study.
@@ -88,6 +90,7 @@ class Workers(Protocol):
         ...
 
 
+@checked()
 def generator(case: Case, *, seed: int = 0) -> np.random.Generator:
     """The case's own random numbers: from its key, not from its place.
 

@@ -6,12 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.study.cases import Case, Row, Study, measured
 from rrnn_opt.study.processes import WorkerError, lost_row
 
 PATIENCE_S = 30.0
 
 
+@checked()
 @dataclass(frozen=True)
 class Cluster:
     """The workers of a Dask scheduler, whichever come and go.

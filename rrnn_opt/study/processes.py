@@ -15,6 +15,7 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from typing import Any
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.study.cases import Case, Row, Study, measured
 from rrnn_opt.study.threads import one_thread
@@ -41,6 +42,7 @@ class Here:
         yield from (measured(study, case, seed) for case in cases)
 
 
+@checked()
 @dataclass(frozen=True)
 class Processes:
     """Worker processes, one case at a time each.

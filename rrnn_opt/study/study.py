@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.study.cases import Row, Study, Workers, once
 
 
@@ -30,6 +31,7 @@ def rows(
     yield from where.rows(study, iter(study), seed)
 
 
+@checked()
 def local(jobs: int) -> Workers:
     """Workers on this machine: this process for one job, else processes."""
     from rrnn_opt.study.processes import Here, Processes

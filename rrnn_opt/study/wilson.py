@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError
 
 
+@checked()
 def wilson(successes: int, n: int, *, confidence: float = 0.95) -> tuple[float, float]:
     """Wilson's score interval of successes / n.
 

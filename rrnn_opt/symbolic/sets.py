@@ -15,7 +15,8 @@ from itertools import accumulate, pairwise
 import casadi as ca
 import numpy as np
 
-from rrnn_opt.errors import RrnnError
+from rrnn_opt.arguments import checked, require_parts
+from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.symbolic.pointwise import Truth, clip, is_small, is_symbolic, like
 from rrnn_opt.symbolic.symbol import Value, require_shape
 
@@ -84,6 +85,7 @@ class ConvexSet(ABC):
         return is_small(self.normal_cone(x, y), tolerance)
 
 
+@checked(infinite=("lower", "upper"))
 @dataclass(frozen=True, eq=False)
 class Box(ConvexSet):
     """``{x : lower <= x <= upper}``; a side may be infinite.
@@ -104,6 +106,9 @@ class Box(ConvexSet):
     upper: Value
 
     def __post_init__(self) -> None:
+        require_parts(self.lower, "lower side of the box", ("shape",))
+        if not self.lower.shape:
+            raise ShapeError("lower side of the box", (1,), ())
         require_shape(self.lower, (self.n, 1), "lower side of the box")
         require_shape(self.upper, (self.n, 1), "upper side of the box")
         numeric = not is_symbolic(self.lower) and not is_symbolic(self.upper)
@@ -134,6 +139,7 @@ class Box(ConvexSet):
         return np.asarray(np.sum(side * y))
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Ball(ConvexSet):
     """``{x : |x - center| <= radius}`` with a positive radius.
@@ -181,6 +187,7 @@ class Ball(ConvexSet):
         return np.asarray(inner + self.radius * np.linalg.norm(y))
 
 
+@checked()
 @dataclass(frozen=True)
 class Orthant(ConvexSet):
     """The nonnegative orthant ``{x : x >= 0}``.
@@ -214,6 +221,7 @@ def whole_space(n: int) -> Box:
     return Box(np.full(n, -np.inf), np.full(n, np.inf))
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Product(ConvexSet):
     """Cartesian product ``C_1 x C_2 x ..`` of sets, coordinates stacked.

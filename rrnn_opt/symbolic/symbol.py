@@ -9,6 +9,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from rrnn_opt.arguments import checked, require_numeric, require_parts
 from rrnn_opt.errors import RrnnError, ShapeError
 
 Expr = ca.SX
@@ -37,6 +38,9 @@ def require_shape(value: Value, shape: tuple[int, int], name: str) -> None:
     Raises:
         ShapeError: the shape differs.
     """
+    require_parts(value, name, ("shape",))
+    if getattr(value, "dtype", None) == object:
+        require_numeric(value, name)
     got = tuple(int(n) for n in value.shape)
     if got != shape and not (len(got) == 1 and (got[0], 1) == shape):
         raise ShapeError(name, shape, got)
@@ -59,6 +63,7 @@ def dense(value: Value, shape: tuple[int, int], name: str) -> ca.SX:
     return ca.densify(ca.SX(value))
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Symbol:
     """A named free variable: C argument names and tables come from it.
@@ -142,6 +147,8 @@ def require_names(symbols: tuple[Symbol, ...], where: str) -> None:
     Raises:
         RrnnError: a name stands twice.
     """
+    for symbol in symbols:
+        require_parts(symbol, where, ("name", "sx"))
     names = [s.name for s in symbols]
     for name in names:
         if names.count(name) > 1:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rrnn_opt.arguments import require_numeric
 from rrnn_opt.errors import NotFiniteError, RrnnError
 from rrnn_opt.symbolic.symbol import Symbol, require_shape
 
@@ -27,7 +28,9 @@ def number(symbol: Symbol, value: ArrayLike) -> Array:
     Raises:
         ShapeError: it has another shape.
         NotFiniteError: it holds NaN or an infinity.
+        ArgumentError: it holds no real numbers.
     """
+    require_numeric(value, symbol.name)
     array = np.asarray(value, dtype=np.float64)
     if array.ndim == 0:
         array = array.reshape(1, 1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.robot import Robot
 
@@ -12,6 +13,7 @@ BUILTIN = ("pa10", "panda", "raven2", "planar3")
 __all__ = ["BUILTIN", "builtin"]
 
 
+@checked()
 def builtin(name: str) -> Robot:
     """The built-in robot of that name.
 

@@ -10,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.verification.engines.interval.kernel import Array
@@ -19,6 +20,7 @@ from rrnn_opt.verification.region.result import Region, RegionCell, RegionMap
 Tile = tuple[tuple[float, float], tuple[float, float]]
 
 
+@checked()
 def certify_region(
     arm: Robot | Kinematics,
     region: Region | None = None,

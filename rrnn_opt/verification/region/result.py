@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import NotFiniteError, RrnnError, ShapeError
 from rrnn_opt.robot import Kinematics
 
@@ -15,6 +16,7 @@ KIND = "rrnn_opt region map"
 HALF_WIDTH, _MARGIN = 0.5, 0.1
 
 
+@checked()
 @dataclass(frozen=True)
 class Region:
     """A box of joint positions.
