@@ -6,6 +6,9 @@ available as attributes, so that callers never parse a sentence.
 
 from __future__ import annotations
 
+_LONGEST = 600
+"""Characters of a name or a reason in a message."""
+
 
 class RrnnError(Exception):
     """Root of every error that this package raises on purpose."""
@@ -89,7 +92,9 @@ class RobotError(RrnnError):
 
     def __init__(self, source: str, message: str) -> None:
         self.source = source
-        super().__init__(f"robot '{source}': {message}")
+        named = source if len(source) <= _LONGEST else source[:_LONGEST] + "..."
+        told = " ".join(message[:_LONGEST].split())
+        super().__init__(f"robot '{named}': {told}")
 
 
 class ProblemError(RrnnError):

@@ -39,7 +39,7 @@ def require_shape(value: Value, shape: tuple[int, int], name: str) -> None:
         ShapeError: the shape differs.
     """
     require_parts(value, name, ("shape",))
-    if getattr(value, "dtype", None) == object:
+    if getattr(getattr(value, "dtype", None), "kind", "") == "O":
         require_numeric(value, name)
     got = tuple(int(n) for n in value.shape)
     if got != shape and not (len(got) == 1 and (got[0], 1) == shape):
