@@ -1,0 +1,56 @@
+"""Arguments of another kind than the signature says get one sentence."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import rrnn_opt as rr
+from rrnn_opt.errors import ArgumentError, NotFiniteError, RrnnError
+from rrnn_opt.motion import Path
+from rrnn_opt.networks import LviPdnn, PrimalDual
+from rrnn_opt.planning import RandomRnn
+from rrnn_opt.robot import Limits
+
+
+@pytest.mark.parametrize(
+    "value", [None, "0.01", 1j, [0.1], np.ones(2), True, object(), b"1", 10**400]
+)
+def test_what_is_no_number_is_named_with_its_argument(value):
+    with pytest.raises(ArgumentError, match="PrimalDual: epsilon: expected a number"):
+        PrimalDual(epsilon=value)
+
+
+@pytest.mark.parametrize("value", [0.5, 1, np.float32(0.5), np.int64(1)])
+def test_numbers_of_every_kind_are_numbers(value):
+    assert LviPdnn(gamma=value).gamma == value
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_no_setting_is_kept_that_is_not_finite(value):
+    with pytest.raises(NotFiniteError, match="RandomRnn.max_step"):
+        RandomRnn(max_step=value)
+
+
+def test_limits_may_be_infinite_but_not_speeds():
+    ends, ones = np.full(2, np.inf), np.ones(2)
+    assert Limits(-ends, ends, ones, ones).upper[0] == np.inf
+    with pytest.raises(NotFiniteError, match="Limits.velocity"):
+        Limits(-ends, ends, ends, ones)
+
+
+@pytest.mark.parametrize("value", ["abc", [[1j]], [[None]], {"a": 1}, print, [[1], []]])
+def test_rows_hold_numbers(value):
+    with pytest.raises(ArgumentError, match="Path: waypoints"):
+        Path(value)
+
+
+def test_verbs_say_what_they_want():
+    with pytest.raises(ArgumentError, match="plan: problem: expected a Problem"):
+        rr.plan({"robot": "planar3"})
+    with pytest.raises(ArgumentError, match="missing a required argument: 'problem'"):
+        rr.plan()
+    with pytest.raises(RrnnError, match="kin: expected a Kinematics, got 'planar3'"):
+        rr.formulations.minimum_velocity("planar3")
