@@ -30,14 +30,14 @@ def test_numbers_of_every_kind_are_numbers(value):
 
 @pytest.mark.parametrize("value", [math.nan, math.inf])
 def test_no_setting_is_kept_that_is_not_finite(value):
-    with pytest.raises(NotFiniteError, match="RandomRnn.max_step"):
+    with pytest.raises(NotFiniteError, match=r"RandomRnn\.max_step"):
         RandomRnn(max_step=value)
 
 
 def test_limits_may_be_infinite_but_not_speeds():
     ends, ones = np.full(2, np.inf), np.ones(2)
     assert Limits(-ends, ends, ones, ones).upper[0] == np.inf
-    with pytest.raises(NotFiniteError, match="Limits.velocity"):
+    with pytest.raises(NotFiniteError, match=r"Limits\.velocity"):
         Limits(-ends, ends, ends, ones)
 
 

@@ -78,7 +78,7 @@ def _sweep(target: Path) -> None:
 def file_name(name: str) -> str:
     """A name of the user's as the stem of a file: no path, and not too long."""
     plain = re.sub(r"[^A-Za-z0-9_.+-]", "_", name).strip(".")[:80]
-    if plain == name:
+    if plain and plain == name:
         return name
     return f"{plain}_{hashlib.sha256(name.encode('utf-8', 'replace')).hexdigest()[:8]}"
 

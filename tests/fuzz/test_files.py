@@ -84,5 +84,5 @@ def test_a_plan_of_another_form_is_not_drawn():
     document = json.loads(bases.plan_text())
     for change in (None, [], {"velocity": [0.0] * 3}, {"velocity": ["x"] * 3}):
         document["robot"]["limits"] = change
-        with pytest.raises(DocumentError, match="robot.limits"):
+        with pytest.raises(DocumentError, match=r"robot\.limits"):
             drawing_of(document)

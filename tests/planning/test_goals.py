@@ -5,12 +5,12 @@ from functools import cache
 import casadi as ca
 import numpy as np
 import pytest
-from rrnn_opt.planning.drives import drive_functions
 
 import rrnn_opt as rr
 from rrnn_opt.check.plans.goal import nearest_goal
 from rrnn_opt.check.plans.robot.model import read_model
 from rrnn_opt.planning import Problem
+from rrnn_opt.planning.drives import drive_functions
 from rrnn_opt.planning.goals import TipGoal, goals_from_data
 from rrnn_opt.planning.request import tip_target
 
