@@ -97,9 +97,8 @@ def fit_spheres(
         connects; links at most ``NEIGHBOURS`` joints apart whose geometry is
         apart in all postures between the limits, proved by branch and bound, or
         in ``POSTURES`` random ones, where that proof is not finished; links
-        whose geometry touches in all random postures, or whose spheres overlap
-        in all of them even when refined, of which checking would forbid every
-        posture.
+        whose geometry touches, or whose spheres as first fitted overlap, in all
+        random postures, of which checking would forbid every posture.
 
     Raises:
         RobotError: the file or a mesh cannot be read.
@@ -116,17 +115,19 @@ def fit_spheres(
     moving = _moving(robot, tuple(links), adjacent)
     contacts = [PairContact(links[a], links[b], geometry, seen) for a, b in moving]
     others = [PairContact(links[a], links[b], geometry, fresh) for a, b in moving]
-    apart = _never(robot, contacts, geometry)
-    before = {c.names: (c.overlap.copy(), c.touch.copy()) for c in others}
-    refine(
-        [c for c in contacts if not c.touch.all() and c.names not in apart],
-        extra=extra,
-        share=SHARE,
-    )
-    rows = [(a, b, "adjacent") for a, b in combinations(links, 2) if {a, b} in adjacent]
+    unchecked = _never(robot, contacts, geometry)
     for contact in contacts:
-        why = apart.get(contact.names) or _always(contact)
-        rows += [(*contact.names, why)] if why else []
+        why = unchecked.get(contact.names) or _always(contact)
+        unchecked |= {contact.names: why} if why else {}
+    before = {c.names: (c.overlap.copy(), c.touch.copy()) for c in others}
+    kept = [c for c in contacts if c.names not in unchecked]
+    refine(kept, extra=extra, share=SHARE)
+    rows = [(a, b, "adjacent") for a, b in combinations(links, 2) if {a, b} in adjacent]
+    rows += [
+        (*contact.names, unchecked[contact.names])
+        for contact in contacts
+        if contact.names in unchecked
+    ]
     checked = set(moving) - {(a, b) for a, b, _ in rows}
     for contact in others:
         contact.look()
