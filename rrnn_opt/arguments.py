@@ -39,8 +39,12 @@ def checked(
         infinite: fields of a dataclass whose numbers may be infinite.
 
     Returns:
-        The decorator; what it decorates raises ``ArgumentError`` for an argument
-        of another kind, and ``NotFiniteError`` for a field that is not finite.
+        The decorator.
+
+    Raises:
+        ArgumentError: when what it decorates is called: an argument is of another
+            kind than its annotation says.
+        NotFiniteError: likewise: a field of the dataclass is not finite.
     """
 
     def decorate(target: Checked) -> Checked:
@@ -177,6 +181,10 @@ def _several(within: tuple[Any, ...]) -> Test:
 def require_numeric(value: Any, name: str) -> None:
     """Refuse what is no array of real numbers.
 
+    Args:
+        value: what was given.
+        name: of the argument, for the message.
+
     Raises:
         ArgumentError: it is not.
     """
@@ -186,6 +194,11 @@ def require_numeric(value: Any, name: str) -> None:
 
 def require_parts(value: Any, name: str, parts: Sequence[str]) -> None:
     """Refuse an object that lacks what is asked of it.
+
+    Args:
+        value: what was given.
+        name: of the argument, for the message.
+        parts: attributes that it must have.
 
     Raises:
         ArgumentError: it does.
