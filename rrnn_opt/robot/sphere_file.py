@@ -80,7 +80,14 @@ def read_sphere_file(path: str | Path) -> SphereFile:
         raise RobotError(str(path), f"not a readable sphere file: {error}") from None
     try:
         return SphereFile.from_data(data)
-    except (KeyError, TypeError, ValueError, AttributeError, ShapeError) as error:
+    except (
+        LookupError,
+        TypeError,
+        ValueError,
+        AttributeError,
+        OverflowError,
+        ShapeError,
+    ) as error:
         message = f"not a sphere file, 'links' of spheres are expected ({error!r})"
         raise RobotError(str(path), message) from None
 
