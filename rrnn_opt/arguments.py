@@ -26,6 +26,7 @@ from rrnn_opt.errors import ArgumentError, NotFiniteError
 Checked = TypeVar("Checked", bound=Callable[..., Any])
 Test = Callable[[Any], bool]
 _LOOKED = 10_000
+_SEVERAL = (tuple, list, Sequence, Iterable)
 _REST = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
 
 
@@ -78,7 +79,7 @@ def _guarded(
     """What looks at the arguments of a call; it reads annotations when first used."""
 
     @functools.cache
-    def read() -> tuple[inspect.Signature, dict[str, tuple[Test, str]]]:
+    def read() -> tuple[inspect.Signature, dict[str, tuple[Test, str, Any]]]:
         signature, tests = inspect.signature(function), {}
         for name, parameter in signature.parameters.items():
             if name in skip or parameter.kind in _REST:
@@ -86,9 +87,9 @@ def _guarded(
             plain = _numeric(parameter.annotation)
             hint = _hint(name, parameter.annotation, function, owner)
             if plain is not None:
-                tests[name] = (plain, "an array of numbers")
+                tests[name] = (plain, "an array of numbers", None)
             elif hint is not None:
-                tests[name] = (_test(hint), _words(hint))
+                tests[name] = (_test(hint), _words(hint), _part(hint))
         return signature, tests
 
     def guard(where: str, args: tuple[Any, ...], given: dict[str, Any]) -> None:
@@ -99,10 +100,24 @@ def _guarded(
             raise ArgumentError(where, str(error)) from None
         for name, value in bound.items():
             if name in tests and not tests[name][0](value):
-                message = f"expected {tests[name][1]}, got {_shown(value)}"
-                raise ArgumentError(f"{where}: {name}", message)
+                raise _refusal(f"{where}: {name}", value, *tests[name][1:])
 
     return guard
+
+
+def _part(hint: Any) -> Any:
+    """The type of a sequence's entries; None where a type is no sequence."""
+    within = typing.get_args(hint)
+    return within[0] if typing.get_origin(hint) in _SEVERAL and within else None
+
+
+def _refusal(where: str, value: Any, words: str, part: Any) -> ArgumentError:
+    """What is wrong with a value: the first entry that is, where it is a sequence."""
+    if part is not None and isinstance(value, list | tuple):
+        sound = _test(part)
+        k = next((k for k, entry in enumerate(value) if not sound(entry)), 0)
+        return _refusal(f"{where}[{k}]", value[k], _words(part), _part(part))
+    return ArgumentError(where, f"expected {words}, got {_shown(value)}")
 
 
 def _numeric(annotation: Any) -> Test | None:
@@ -151,7 +166,7 @@ def _test(hint: Any) -> Test:
         return lambda value: isinstance(value, str) and value in within
     if origin is np.ndarray:
         return is_numeric
-    if origin in (tuple, list, Sequence, Iterable):
+    if origin in _SEVERAL:
         return _several(within)
     if origin is Mapping or origin is dict:
         return lambda value: isinstance(value, Mapping)
@@ -257,7 +272,7 @@ def _words(hint: Any) -> str:
         return "one of " + ", ".join(map(str, within))
     if origin is np.ndarray:
         return "an array of numbers"
-    if origin in (tuple, list, Sequence, Iterable):
+    if origin in _SEVERAL:
         return "a sequence"
     kind = origin or hint
     return f"a {getattr(kind, '__name__', 'value')}"

@@ -9,13 +9,15 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 import casadi as ca
 
 from rrnn_opt.arguments import checked
-from rrnn_opt.errors import RrnnError, ShapeError
+from rrnn_opt.errors import ArgumentError, RrnnError, ShapeError
 from rrnn_opt.symbolic.symbol import Symbol, require_declared, require_names
 from rrnn_opt.symbolic.tape import fingerprint
 
@@ -72,17 +74,26 @@ class Hypothesis:
     added: bool = False
 
 
-@checked()
+def _fractions(name: str, bounds: Iterable[Any]) -> tuple[Fraction | None, ...]:
+    try:
+        return tuple(None if x is None else Fraction(x) for x in bounds)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ArgumentError(f"Range: {name}", f"expected numbers: {error}") from None
+
+
+@checked(skip=["lower", "upper"])
 @dataclass(frozen=True)
 class Range:
     """A closed interval for every element of one variable.
 
     Attributes:
         variable: its name.
-        lower: one bound an element, column-major; None for minus infinity.
+        lower: one bound an element, column-major; None for minus infinity.  Whole
+            numbers and floats are taken for the fractions that they are.
         upper: one bound an element; None for plus infinity.
 
     Raises:
+        ArgumentError: a bound is no finite number.
         ShapeError: there are more lower than upper bounds, or fewer.
         RrnnError: a lower bound exceeds its upper bound.
     """
@@ -92,6 +103,8 @@ class Range:
     upper: tuple[Fraction | None, ...]
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "lower", _fractions("lower", self.lower))
+        object.__setattr__(self, "upper", _fractions("upper", self.upper))
         if len(self.lower) != len(self.upper):
             want, got = (len(self.lower),), (len(self.upper),)
             raise ShapeError(f"range of '{self.variable}': upper bounds", want, got)

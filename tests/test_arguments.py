@@ -47,6 +47,15 @@ def test_rows_hold_numbers(value):
         Path(value)
 
 
+def test_the_entry_that_is_wrong_is_named():
+    with pytest.raises(
+        ArgumentError, match=r"plan_many: problems\[0\]: expected a Pro"
+    ):
+        rr.plan_many([1])
+    with pytest.raises(ArgumentError, match="plan_many: problems: expected a sequence"):
+        rr.plan_many(1)
+
+
 def test_verbs_say_what_they_want():
     with pytest.raises(ArgumentError, match="plan: problem: expected a Problem"):
         rr.plan({"robot": "planar3"})

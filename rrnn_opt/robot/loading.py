@@ -60,7 +60,7 @@ def _quiet() -> Iterator[None]:
             os.close(nowhere)
 
 
-@checked()
+@checked(skip=["tips"])
 def from_urdf(
     path: str | Path,
     *,

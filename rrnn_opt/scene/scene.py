@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, get_args
 
@@ -23,7 +23,7 @@ Member = Obstacle | Mesh | Points
 """What may stand in a scene: a shape, the hull of a mesh, or a cloud of points."""
 
 
-@checked()
+@checked(skip=["obstacles"])
 @dataclass(frozen=True, eq=False)
 class Scene:
     """Obstacles in the order in which they were given.
@@ -32,12 +32,15 @@ class Scene:
         obstacles: any number of shapes.
 
     Raises:
-        ProblemError: an entry is not a shape.
+        ProblemError: these are no entries, or an entry is not a shape.
     """
 
     obstacles: tuple[Member, ...] = ()
 
     def __post_init__(self) -> None:
+        if not isinstance(self.obstacles, Iterable):
+            message = f"expected shapes, got {fields.shown(self.obstacles)}"
+            raise ProblemError("obstacles", message)
         object.__setattr__(self, "obstacles", tuple(self.obstacles))
         for index, obstacle in enumerate(self.obstacles):
             if not isinstance(obstacle, Member):

@@ -105,7 +105,7 @@ def test_leftovers_of_killed_runs_go_with_time(tmp_path, monkeypatch):
         os.utime(folder, (0, 0))
     (temporary / "rrnn_opt-link").symlink_to(foreign)
     os.utime(temporary / "rrnn_opt-link", (0, 0), follow_symlinks=False)
-    build(SOURCE, name="answer")
+    build(SOURCE + "// of this test alone\n", name="answer")
     assert {p.name for p in temporary.iterdir()} == {"rrnn_opt-b", "rrnn_opt-link", "x"}
     assert (foreign / "tu.c").exists()
     torn = tmp_path / ".plan.json.abcdefgh"

@@ -160,7 +160,7 @@ def test_without_contacts_all_are_position_feedback(every, scheme):
 
 
 def test_a_reading_is_one_of_two(pa10):
-    with pytest.raises(RrnnError, match="use 'transpose' or 'index'"):
+    with pytest.raises(RrnnError, match="reading: expected one of transpose, index"):
         joint_sign_sets(pa10, reading="literal")
 
 
