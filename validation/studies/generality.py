@@ -7,7 +7,9 @@ when missing), each in its own random scenes (``clutter``): boxes, cylinders and
 spheres within reach, a start and a goal posture drawn until they are free.  The
 planner's constants are those of every other scene and stood before the scenes
 were drawn.  A scene may have no solution; it then counts as not solved.  Every
-scene is one line of DIR/rows.jsonl: a run that is stopped goes on.
+scene is one line of DIR/rows.jsonl, which names the commit that made it: a run
+that is stopped goes on.  The page has all arms and scenes of DIR that have the
+seed, so that arms may be run one by one, in different numbers of scenes.
 """
 
 from __future__ import annotations
@@ -25,6 +27,7 @@ from rrnn_opt.planning import Problem, RandomRnn, plan
 from rrnn_opt.planning.goals import JointGoal
 from rrnn_opt.report import write_text
 from rrnn_opt.study import Lines, read_lines
+from rrnn_opt.study.environment import commit
 from rrnn_opt.validation.studies.arms import ARMS, arm, contacts
 from rrnn_opt.validation.studies.clutter import scenes
 from rrnn_opt.validation.studies.generality_page import page
@@ -81,13 +84,14 @@ def run(
     out.mkdir(parents=True, exist_ok=True)
     lines = Lines(out / "rows.jsonl")
     done = {(r["arm"], r["scene"], r["seed"]): r for r in lines}
+    made = {"seed": seed, "commit": commit()}
     for name in names:
         drawn = scenes(arm(name, out), count, seed)
         for index in range(count):
             row = done.get((name, index, seed))
             problem = next(drawn)
             if row is None:
-                row = {**measured(name, index, problem, peer), "seed": seed}
+                row = {**measured(name, index, problem, peer), **made}
                 lines.append(row)
             yield row
 
@@ -102,9 +106,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, required=True)
     args = parser.parse_args(argv)
     peer = not args.no_peer
-    rows = list(run(args.arms, args.out, args.scenes, args.seed, peer=peer))
-    command = f"{COMMAND} --scenes {args.scenes} --seed {args.seed} --out DIR"
-    found = contacts(args.out, args.arms)
+    for _ in run(args.arms, args.out, args.scenes, args.seed, peer=peer):
+        pass
+    rows = [r for r in read(args.out / "rows.jsonl") if r["seed"] == args.seed]
+    rows.sort(key=lambda r: (list(ARMS).index(r["arm"]), r["scene"]))
+    command = f"{COMMAND} --arms ARM --scenes SCENES --seed {args.seed} --out DIR"
+    found = contacts(args.out, dict.fromkeys(r["arm"] for r in rows))
     text = page(rows, command, found, (BUDGET, PEER_LIMIT))
     write_text(args.out / "generality.md", text)
     return 0

@@ -25,6 +25,7 @@ HEADER = (
     "RRTConnect found",
     "its checks in C [ms]",
     "neither",
+    "code",
 )
 
 
@@ -47,7 +48,10 @@ def page(
     lines = [
         "# Arms that nothing was tuned on, in random scenes",
         "",
-        f"`{command}`, {platform.machine()}, Python {platform.python_version()}.",
+        f"`{command}` for each ARM,",
+        "SCENES the number that *solved* is of, with the code of the commit named"
+        " at the end of",
+        f"its line; {platform.machine()}, Python {platform.python_version()}.",
         "",
         f"{OBSTACLES} boxes, cylinders and spheres of {SIZE[0]:g} to {SIZE[1]:g} times"
         " the reach at random places",
@@ -139,6 +143,7 @@ def _line(mine: Sequence[Mapping[str, Any]]) -> tuple[str, ...]:
         f"{len(found)}/{len(peers)}" if peers else "-",
         _times([row["peer_s"] for row in found]),
         str(len(neither)) if peers else "-",
+        ", ".join(sorted({str(row.get("commit") or "?") for row in mine})),
     )
 
 

@@ -18,13 +18,15 @@ def test_the_page_tells_who_solved_what():
     rows = [ROW, {**ROW, "peer": False}, lost, {**lost, "peer": False}]
     touch = {"postures": 10, "spheres": 0.3, "geometry": 0.1}
     contacts = {"a": {"before": touch, "after": {**touch, "spheres": 0.2}}}
-    numbered = [{**row, "scene": k} for k, row in enumerate(rows)]
+    made = ["0ld", "0ld", "new", "new"]
+    numbered = [{**row, "scene": k, "commit": made[k]} for k, row in enumerate(rows)]
     text = page(numbered, "command", contacts, (2000, 6.0))
     line = next(line for line in text.splitlines() if line.startswith("| a |"))
     cells = [cell.strip() for cell in line.strip("|").split("|")]
     assert cells[3] == "2/4"
     assert cells[7] == "2 budget_exhausted"
     assert (cells[8], cells[10]) == ("2/4", "1")
+    assert cells[11] == "0ld, new"
     assert "- a, only RRTConnect found a path: 1 (2)" in text
     assert "- a, neither did: 1 (3)" in text
     assert "- a, only we did: 1 (1)" in text
@@ -53,6 +55,25 @@ def test_a_stopped_study_goes_on(tmp_path, monkeypatch):
     both = list(generality.run(["pa10"], tmp_path, 3, seed=1))
     assert asked == [0, 1, 2]
     assert both[:2] == first
+
+
+def test_the_page_has_every_arm_of_the_folder(tmp_path, monkeypatch):
+    """Arms run one by one, in different numbers of scenes, make one page."""
+    robot = Robot.builtin("pa10")
+    monkeypatch.setattr(generality, "arm", lambda name, out: robot)
+    monkeypatch.setattr(generality, "commit", lambda: "abc123")
+
+    def measured(name: str, index: int, problem: Problem, peer: bool):
+        return {**ROW, "arm": name, "scene": index}
+
+    monkeypatch.setattr(generality, "measured", measured)
+    for name, count in (("kinova", "3"), ("ur10", "2")):
+        words = ["--arms", name, "--scenes", count, "--out", str(tmp_path)]
+        assert generality.main(words) == 0
+    text = (tmp_path / "generality.md").read_text("utf-8")
+    found = [line for line in text.splitlines() if line.startswith(("| ur", "| ki"))]
+    assert [line.split(" | ")[3] for line in found] == ["2/2", "3/3"]
+    assert all(line.endswith("| abc123 |") for line in found)
 
 
 def test_rrt_connect_reaches_a_goal_and_counts_its_checks():
