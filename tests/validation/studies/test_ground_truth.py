@@ -54,7 +54,9 @@ def test_every_pair_and_each_scheme_on_another_robot(robot, part):
     wrong = [(r["who"], r["scheme"]) for r in networks if "solved" in r["statuses"]]
     assert wrong == []
     assert sum(row["right"] for row in networks) >= 0.9 * asked
-    assert {row["who"] for row in networks} == set(network_rules())
+    ran, known = {row["who"] for row in networks}, set(network_rules())
+    assert ran <= known
+    assert ran == known or part != slice(None)  # some take equalities alone
 
 
 def test_the_least_shares_of_active_points_hold():
