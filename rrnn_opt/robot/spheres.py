@@ -183,5 +183,8 @@ def _always(contact: PairContact) -> str:
     if contact.touch.all():
         return f"geometry touches in each of {POSTURES} random postures"
     if (share := float(contact.overlap.mean())) >= ALWAYS:
-        return f"spheres overlap in {share:.1%} of {POSTURES} random postures"
+        return (
+            f"spheres overlap in {share:.1%} of {POSTURES} random postures,"
+            f" geometry touches in {contact.touch.mean():.1%}"
+        )
     return ""

@@ -15,6 +15,7 @@ seed, so that arms may be run one by one, in different numbers of scenes.
 from __future__ import annotations
 
 import argparse
+import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -30,7 +31,7 @@ from rrnn_opt.study import Lines, read_lines
 from rrnn_opt.study.environment import commit
 from rrnn_opt.validation.studies.arms import ARMS, arm, contacts
 from rrnn_opt.validation.studies.clutter import scenes
-from rrnn_opt.validation.studies.generality_page import page
+from rrnn_opt.validation.studies.generality_page import kept_lines, page
 from rrnn_opt.validation.studies.peer import rrt_connect
 from rrnn_opt.validation.tables.searched import searched
 
@@ -96,6 +97,18 @@ def run(
             yield row
 
 
+def found_arms(rows: Sequence[dict[str, Any]]) -> list[str]:
+    """Arms of some rows, in their order."""
+    return list(dict.fromkeys(row["arm"] for row in rows))
+
+
+def earlier_page(commit: str) -> str:
+    """The page as it was kept at a commit of the checkout."""
+    root = Path(__file__).resolve().parents[3]
+    words = ["git", "-C", str(root), "show", f"{commit}:docs/results/generality.md"]
+    return subprocess.run(words, capture_output=True, text=True, check=True).stdout
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the study and write ``generality.md``."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -103,6 +116,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--scenes", type=int, default=200)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--no-peer", action="store_true", help="without OMPL")
+    parser.add_argument("--earlier", help="commit whose page has the missing arms")
     parser.add_argument("--out", type=Path, required=True)
     args = parser.parse_args(argv)
     peer = not args.no_peer
@@ -111,8 +125,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     rows = [r for r in read(args.out / "rows.jsonl") if r["seed"] == args.seed]
     rows.sort(key=lambda r: (list(ARMS).index(r["arm"]), r["scene"]))
     command = f"{COMMAND} --arms ARM --scenes SCENES --seed {args.seed} --out DIR"
-    found = contacts(args.out, dict.fromkeys(r["arm"] for r in rows))
+    found = contacts(args.out, found_arms(rows))
     text = page(rows, command, found, (BUDGET, PEER_LIMIT))
+    if args.earlier:
+        text += kept_lines(earlier_page(args.earlier), args.earlier, found_arms(rows))
     write_text(args.out / "generality.md", text)
     return 0
 

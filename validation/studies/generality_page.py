@@ -75,6 +75,29 @@ def page(
     return "\n".join(lines) + "\n"
 
 
+def kept_lines(text: str, commit: str, arms: Sequence[str]) -> str:
+    """Lines of an earlier page, of arms that were not run again, with its commit.
+
+    Args:
+        text: the earlier page, with the columns of this one but the last.
+        commit: that it is of.
+        arms: that have lines of their own.
+    """
+    lines = [line for line in text.splitlines() if line.count("|") == len(HEADER)]
+    names = ("arm", "---", *arms)
+    kept = [line for line in lines if line.split("|")[1].strip() not in names]
+    if not kept:
+        return ""
+    rows = [HEADER, ["---"] * len(HEADER)]
+    table = ["| " + " | ".join(row) + " |" for row in rows]
+    table += [f"{line.rstrip()} {commit} |" for line in kept]
+    note = (
+        f"These lines are those of this page at commit {commit}, where its limits and"
+        " load stand:\nan earlier planner and earlier spheres."
+    )
+    return "\n".join(["", "## Not run again since", "", note, "", *table, ""])
+
+
 def _unsolved(rows: Sequence[Mapping[str, Any]], arms: Sequence[str]) -> list[str]:
     """Scenes that only one planner solved, or none."""
     lines = ["## Scenes that are not solved", ""]

@@ -6,7 +6,7 @@ from rrnn_opt.planning import Problem
 from rrnn_opt.robot import Robot
 from rrnn_opt.validation.studies import generality
 from rrnn_opt.validation.studies.clutter import OBSTACLES, scenes
-from rrnn_opt.validation.studies.generality_page import page
+from rrnn_opt.validation.studies.generality_page import HEADER, kept_lines, page
 from rrnn_opt.validation.studies.peer import rrt_connect
 
 ROW = {"arm": "a", "joints": 6, "spheres": 9, "plan_s": 1e-3, "all_s": 1e-2}
@@ -31,6 +31,17 @@ def test_the_page_tells_who_solved_what():
     assert "- a, neither did: 1 (3)" in text
     assert "- a, only we did: 1 (1)" in text
     assert "| a | 10 | 30.0% | 20.0% | 10.0% |" in text
+
+
+def test_lines_of_an_earlier_page_name_its_commit():
+    cells = ["x"] * (len(HEADER) - 2)
+    lines = ["| " + " | ".join([arm, *cells]) + " |" for arm in ("arm", "a", "b")]
+    text = kept_lines("\n".join([*lines, "| c | too few |"]), "0ld", ["a"])
+    found = [line for line in text.splitlines() if line.startswith("| ")]
+    assert [line.split(" | ")[0] for line in found] == ["| arm", "| ---", "| b"]
+    assert found[-1].endswith("| x | 0ld |")
+    assert len({line.count("|") for line in found}) == 1
+    assert kept_lines("\n".join(lines), "0ld", ["a", "b"]) == ""
 
 
 def test_scenes_are_those_of_their_seed():
