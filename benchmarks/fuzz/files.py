@@ -217,7 +217,9 @@ def task(rng: random.Random, folder: Path) -> str:
             lines = text.splitlines()
             at = rng.randrange(len(lines))
             key = lines[at].split("=")[0]
-            value = json.dumps(mutation.junk(rng)) if rng.random() < 0.8 else "["
+            value = "["
+            if rng.random() < 0.8:
+                value = mutation.json_text(mutation.junk(rng))
             lines[at] = f"{key} = {value.replace('null', '[]')}"
             text = "\n".join(lines)
     data = text.encode("utf-8", "surrogatepass")

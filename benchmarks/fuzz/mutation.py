@@ -155,6 +155,14 @@ def document(rng: random.Random, value: Any) -> Any:
     return result
 
 
+def _copied(value: Any) -> Any:
+    """A copy; None for what an earlier change has nested too deep for one."""
+    try:
+        return copy.deepcopy(value)
+    except RecursionError:
+        return None
+
+
 def _change(
     rng: random.Random, node: Any, key: Any, found: list[tuple[Any, Any]]
 ) -> None:
@@ -163,9 +171,9 @@ def _change(
         del node[key]
     elif what == 1:
         other, there = rng.choice(found)
-        node[key] = copy.deepcopy(other[there])
+        node[key] = _copied(other[there])
     elif what == 2 and isinstance(node, list):
-        node.insert(key, copy.deepcopy(node[key]))
+        node.insert(key, _copied(node[key]))
     elif what == 2:
         node[rng.choice(NAMES)] = node[key]
     elif what == 3 and isinstance(node[key], float | int):
@@ -203,15 +211,20 @@ def raw(rng: random.Random, data: bytes) -> bytes:
     return bytes(changed)
 
 
+def json_text(value: Any) -> str:
+    """JSON; brackets without end for what is nested too deep to be written."""
+    try:
+        return json.dumps(value)
+    except (RecursionError, ValueError):
+        return "[" * 100_000
+
+
 def json_bytes(rng: random.Random, value: Any) -> bytes:
     """A document as JSON, changed as a document, as text or as bytes."""
     what = rng.randrange(5)
     if what <= 2:
         value = document(rng, value)
-    try:
-        text = json.dumps(value)
-    except (RecursionError, ValueError):
-        text = "[" * 100_000
+    text = json_text(value)
     if what == 3:
         text = characters(rng, text)
     data = text.encode("utf-8", "surrogatepass")

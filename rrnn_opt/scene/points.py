@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import tokenize
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar
@@ -117,7 +118,10 @@ def _npy(raw: bytes) -> NDArray[Any]:
     }
     if version not in read:
         raise ValueError(f"version {version} of the format")
-    shape, _, dtype = read[version](file)
+    try:
+        shape, _, dtype = read[version](file)
+    except tokenize.TokenError as error:
+        raise ValueError(f"its header: {error}") from None
     if dtype.hasobject or dtype.kind not in "fiu":
         raise ValueError(f"it holds {dtype}, not numbers")
     if math.prod(shape) * dtype.itemsize != len(raw) - file.tell():

@@ -171,6 +171,14 @@ def test_clouds_that_are_none_are_refused(tmp_path, points):
         Points("p", str(tmp_path / "p.npy"), 0.1)
 
 
+def test_a_cloud_whose_header_is_cut_is_refused(tmp_path):
+    np.save(tmp_path / "p.npy", np.zeros((3, 3)))
+    whole = (tmp_path / "p.npy").read_bytes()
+    (tmp_path / "p.npy").write_bytes(whole.replace(b"}", b" "))
+    with pytest.raises(ProblemError, match=r"p\.npy cannot be read"):
+        Points("p", str(tmp_path / "p.npy"), 0.1)
+
+
 def test_every_solid_hangs_on_the_tree_once_inside_its_boxes(tmp_path, mesh):
     points = np.random.default_rng(1).uniform(-1, 1, (1001, 3))
     np.save(tmp_path / "p.npy", points)
