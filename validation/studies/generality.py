@@ -104,8 +104,8 @@ def found_arms(rows: Sequence[dict[str, Any]]) -> list[str]:
 
 def earlier_page(commit: str) -> str:
     """The page as it was kept at a commit of the checkout."""
-    root = Path(__file__).resolve().parents[3]
-    words = ["git", "-C", str(root), "show", f"{commit}:docs/results/generality.md"]
+    here = Path(__file__).resolve().parent
+    words = ["git", "-C", str(here), "show", f"{commit}:docs/results/generality.md"]
     return subprocess.run(words, capture_output=True, text=True, check=True).stdout
 
 
@@ -125,6 +125,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     rows = [r for r in read(args.out / "rows.jsonl") if r["seed"] == args.seed]
     rows.sort(key=lambda r: (list(ARMS).index(r["arm"]), r["scene"]))
     command = f"{COMMAND} --arms ARM --scenes SCENES --seed {args.seed} --out DIR"
+    command += f" --earlier {args.earlier}" if args.earlier else ""
     found = contacts(args.out, found_arms(rows))
     text = page(rows, command, found, (BUDGET, PEER_LIMIT))
     if args.earlier:
