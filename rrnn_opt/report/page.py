@@ -36,13 +36,17 @@ def write_page(document: dict[str, Any], path: str | Path) -> None:
     write_text(path, page(document))
 
 
-def page(document: dict[str, Any]) -> str:
+def page(document: dict[str, Any], drawing: Drawing | None = None) -> str:
     """The HTML page of a plan result.
+
+    Args:
+        document: plan result.
+        drawing: of that document, where the caller has it already.
 
     Raises:
         DocumentError: the document is not a plan result.
     """
-    drawing = drawing_of(document)
+    drawing = drawing_of(document) if drawing is None else drawing
     robot = str(document["robot"].get("name", "robot"))
     template = resources.files("rrnn_opt.report").joinpath("page.html")
     return Template(template.read_text("utf-8")).substitute(
@@ -62,7 +66,7 @@ def _scene(document: dict[str, Any], drawing: Drawing) -> str:
     if inner is not None:
         source = html.escape(inner, quote=True)
         return f'<iframe title="scene" srcdoc="{source}"></iframe>'
-    data = base64.b64encode(picture(document)).decode("ascii")
+    data = base64.b64encode(picture(document, drawing)).decode("ascii")
     return (
         f'<figure><img alt="the motion" src="data:image/png;base64,{data}">'
         f"<figcaption>For the moving scene: <code>{INSTALL}</code></figcaption>"

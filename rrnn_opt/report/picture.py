@@ -53,8 +53,12 @@ def draw_plan(document: dict[str, Any], path: str | Path) -> None:
     write_bytes(path, picture(document))
 
 
-def picture(document: dict[str, Any]) -> bytes:
+def picture(document: dict[str, Any], drawing: Drawing | None = None) -> bytes:
     """The PNG of a plan result.
+
+    Args:
+        document: plan result.
+        drawing: of that document, where the caller has it already.
 
     Raises:
         DocumentError: the document is not a plan result.
@@ -62,7 +66,7 @@ def picture(document: dict[str, Any]) -> bytes:
     from matplotlib.figure import Figure
     from PIL import Image
 
-    drawing = drawing_of(document)
+    drawing = drawing_of(document) if drawing is None else drawing
     panels = chart_list(document, drawing)
     figure = Figure(figsize=(12.4, 6.6), dpi=DPI * OVERSAMPLING, facecolor="white")
     width = 0.62 if panels else 0.98

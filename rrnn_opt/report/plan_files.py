@@ -8,9 +8,10 @@ import json
 from pathlib import Path
 from typing import Any
 
-from rrnn_opt.report.files import write_text
-from rrnn_opt.report.page import write_page
-from rrnn_opt.report.picture import draw_plan
+from rrnn_opt.report.drawing import drawing_of
+from rrnn_opt.report.files import write_bytes, write_text
+from rrnn_opt.report.page import page
+from rrnn_opt.report.picture import picture
 
 DRAWN = ("trajectory.csv", "plan.png", "plan.html")
 BLOCKS = ("q", "qd", "qdd")
@@ -42,10 +43,10 @@ def write_plan(document: dict[str, Any], folder: str | Path) -> tuple[Path, ...]
     if document.get("trajectory"):
         rows = csv_text(document["trajectory"])
         paths.append(write_text(target / "trajectory.csv", rows))
-    picture, page = target / "plan.png", target / "plan.html"
-    draw_plan(document, picture)
-    write_page(document, page)
-    return (*paths, picture, page)
+    drawing = drawing_of(document)
+    paths.append(write_bytes(target / "plan.png", picture(document, drawing)))
+    paths.append(write_text(target / "plan.html", page(document, drawing)))
+    return tuple(paths)
 
 
 def csv_text(trajectory: dict[str, Any]) -> str:

@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+_VIEWPORT = "<meta name='viewport' content='width=device-width, initial-scale=1'>"
 _STYLE = """
 body{font:15px/1.5 system-ui,sans-serif;color:#2b2f38;max-width:1200px;margin:2em auto;
 padding:0 1em}table{border-collapse:collapse;font-size:13px;margin:1em 0;display:block;
@@ -30,9 +31,10 @@ def html_page(markdown: str, *, title: str, folder: Path) -> str:
         folder: where relative pictures stand.
     """
     body = "\n".join(_blocks(markdown, folder))
-    head = f"<meta charset='utf-8'><title>{html.escape(title)}</title>"
-    return f"<!doctype html><html><head>{head}<style>{_STYLE}</style></head>" + (
-        f"<body>\n{body}\n</body></html>\n"
+    head = f"<meta charset='utf-8'>{_VIEWPORT}<title>{html.escape(title)}</title>"
+    return (
+        f"<!doctype html><html lang='en'><head>{head}<style>{_STYLE}</style></head>"
+        + (f"<body>\n{body}\n</body></html>\n")
     )
 
 
