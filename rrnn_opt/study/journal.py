@@ -10,7 +10,7 @@ from typing import Any
 from rrnn_opt.study.lines import Lines
 
 FIELDS = ("identity", "study", "key", "seed", "error", "time_s", "metrics")
-"""What a kept row holds; ``check`` is a digest of all but ``time_s``."""
+"""What a kept row holds; ``check`` is a digest of all of them."""
 
 Entry = Mapping[str, Any]
 
@@ -21,8 +21,8 @@ def sealed(entry: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def intact(entry: Any) -> bool:
-    """Whether an entry has all its fields and they give its digest."""
-    if not isinstance(entry, dict) or not {*FIELDS, "check"} <= set(entry):
+    """Whether an entry has its fields, no others, and they give its digest."""
+    if not isinstance(entry, dict) or set(entry) != {*FIELDS, "check"}:
         return False
     try:
         same = bool(entry["check"] == _digest(entry))
@@ -32,7 +32,7 @@ def intact(entry: Any) -> bool:
 
 
 def _digest(entry: Mapping[str, Any]) -> str:
-    parts = [entry[name] for name in FIELDS if name != "time_s"]
+    parts = [entry[name] for name in FIELDS]
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:16]
 
 

@@ -55,7 +55,8 @@ def read_part(path: Path) -> Iterator[dict[str, Any] | None]:
     """The entries of a part; None for one that is not intact.
 
     Raises:
-        OSError: the file is no whole part: truncated, or overwritten.
+        OSError: the file is no whole part: truncated, or overwritten, or its
+            texts are none.
     """
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -65,7 +66,11 @@ def read_part(path: Path) -> Iterator[dict[str, Any] | None]:
     except (pa.ArrowException, OSError, KeyError) as error:
         raise OSError(f"{path}: {error}") from error
     for batch in table.to_batches(max_chunksize=1000):
-        for row in batch.to_pylist():
+        try:
+            rows = batch.to_pylist()
+        except UnicodeDecodeError as error:
+            raise OSError(f"{path}: {error}") from error
+        for row in rows:
             entry = _entry(row)
             yield entry if intact(entry) else None
 
