@@ -69,7 +69,7 @@ def gradient_projection(
     """
     require_positive(gain=gain, influence=influence)
     found, wish = contacts_of(kin, contacts), ca.SX.zeros(kin.robot.nv, 1)
-    if contacts:
+    if len(contacts):
         force = ca.fmax(1 - found.clearances.sx / influence, 0)
         wish = gain * (found.gradients.T @ force)
     return follow(

@@ -97,7 +97,13 @@ def method2(
     return Formulation(
         name="method2",
         decision=u,
-        parameters=(task.q, qd, wanted, *near.symbols, *(stored,) * bool(contacts)),
+        parameters=(
+            task.q,
+            qd,
+            wanted,
+            *near.symbols,
+            *(stored,) * (len(contacts) > 0),
+        ),
         cost=ca.dot(u.sx, u.sx) / 2,
         equalities=wanted.sx - drift - task.jacobian @ u.sx,
         inequalities=_rows(near, task.q, qd, u, stored.sx, band, kappa_o),

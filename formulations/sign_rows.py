@@ -77,7 +77,7 @@ def sign_rows(
     require_not_negative(safe=safe)
     u, rd, found = velocity(kin), target(), contacts_of(kin, contacts)
     rows = None
-    if contacts:
+    if len(contacts):
         rows = active(found, safe) * (sign_jacobian(found) @ u.sx)
     lower, upper = velocity_bounds(kin.q, kin.robot.limits, c1=c1, c2=c2)
     return Formulation(

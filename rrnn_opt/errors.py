@@ -158,7 +158,7 @@ class DocumentError(RrnnError):
 
     def __init__(self, path: str, message: str) -> None:
         self.path = path
-        super().__init__(f"{path}: {message}")
+        super().__init__(f"{path}: {' '.join(message[:_LONGEST].split())}")
 
 
 class UndecidedError(RrnnError):

@@ -11,8 +11,9 @@ import rrnn_opt as rr
 from rrnn_opt.errors import ArgumentError, NotFiniteError, RrnnError
 from rrnn_opt.motion import Path
 from rrnn_opt.networks import LviPdnn, PrimalDual
-from rrnn_opt.planning import RandomRnn
+from rrnn_opt.planning import JointGoal, RandomRnn
 from rrnn_opt.robot import Limits
+from rrnn_opt.study import wilson
 
 
 @pytest.mark.parametrize(
@@ -54,6 +55,17 @@ def test_the_entry_that_is_wrong_is_named():
         rr.plan_many([1])
     with pytest.raises(ArgumentError, match="plan_many: problems: expected a sequence"):
         rr.plan_many(1)
+
+
+def test_values_that_libraries_would_stumble_over_get_a_sentence():
+    robot = rr.Robot.builtin("planar3")
+    problem = rr.Problem(robot, [0.1, 0.2, 0.3], JointGoal([0.2, 0.2, 0.2]))
+    with pytest.raises(RrnnError, match="seed: must be zero or more, not -3"):
+        rr.plan(problem, seed=-3)
+    with pytest.raises(RrnnError, match="obstacles: expected shapes"):
+        rr.Scene(np.array(0))
+    with pytest.raises(RrnnError, match="confidence must lie between 0 and 1"):
+        wilson(1, 2, confidence=-3.0)
 
 
 def test_verbs_say_what_they_want():

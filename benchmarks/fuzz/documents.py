@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import json
 import random
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -69,6 +71,17 @@ def certificate_file(rng: random.Random, folder: Path) -> str:
     return ACCEPTED
 
 
+@functools.cache
+def _scripts() -> int:
+    """Script elements of a page whose names are harmless."""
+    from rrnn_opt.report import write_page
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "page.html"
+        write_page(json.loads(bases.plan_text()), path)
+        return path.read_text(encoding="utf-8").count("<script")
+
+
 def page(rng: random.Random, folder: Path) -> str:
     """A plan drawn as an HTML page: no script but its own may be in it."""
     from rrnn_opt.report import write_page
@@ -86,7 +99,7 @@ def page(rng: random.Random, folder: Path) -> str:
     write_page(data, path)
     text = path.read_text(encoding="utf-8")
     require("<script>alert" not in text, "a name became a script")
-    require("touch pwned`" not in text.split("<body")[0], "a name in the head")
+    require(text.count("<script") <= _scripts(), "there are more scripts")
     return ACCEPTED
 
 

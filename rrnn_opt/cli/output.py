@@ -17,6 +17,11 @@ class UsageError(RrnnError):
     """The command line itself is wrong."""
 
 
+def _printable(text: str) -> str:
+    """Text that every terminal takes: names may hold halves of characters."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
 class Output:
     """Where a command puts its results.
 
@@ -41,14 +46,14 @@ class Output:
     def say(self, text: str = "") -> None:
         """A line for people; with ``--json`` it goes to standard error."""
         try:
-            print(text, flush=True)
+            print(_printable(text), flush=True)
         except BrokenPipeError:
             silence(1)
 
     def note(self, text: str) -> None:
         """A line about the run itself, always to standard error."""
         with contextlib.suppress(OSError):
-            print(text, file=sys.stderr, flush=True)
+            print(_printable(text), file=sys.stderr, flush=True)
 
     def document(self, document: dict[str, Any]) -> None:
         """The result as JSON, whole; nothing happens without ``--json``.

@@ -66,13 +66,15 @@ def plan(
         A result in every case that the problem's data allow; see its status.
 
     Raises:
-        ProblemError: the planner's name or a budget is not valid, or the planner
-            cannot be given such a goal.
+        ProblemError: the planner's name, the seed or a budget is not valid, or the
+            planner cannot be given such a goal.
         CompilerError: there is no C compiler.
     """
     chosen = settings or _settings(planner)
     if max_explorations < 1 or (time_limit is not None and not time_limit > 0.0):
         raise ProblemError("budget", "explorations and time limit must be positive")
+    if seed < 0:
+        raise ProblemError("seed", f"must be zero or more, not {seed}")
     if not 0.0 <= improve_s < np.inf:
         raise ProblemError("improve", f"must be seconds, zero or more, not {improve_s}")
     begin = time.perf_counter()

@@ -19,6 +19,7 @@ from rrnn_opt.report.drawing import Drawing, drawing_of
 from rrnn_opt.report.files import write_text
 from rrnn_opt.report.key import nearest_approach
 from rrnn_opt.report.picture import chart_list, picture
+from rrnn_opt.report.save import save
 from rrnn_opt.report.viewer import INSTALL, scene_html
 
 
@@ -84,7 +85,7 @@ def _svg(panel: Any) -> str:
     panel(figure.add_subplot())
     text = io.StringIO()
     with rc_context({"svg.hashsalt": "rrnn_opt"}):
-        figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
+        save(figure, text, format="svg", metadata={"Date": None, "Creator": None})
     drawn = text.getvalue()
     return f"<figure>{drawn[drawn.index('<svg') :]}</figure>"
 

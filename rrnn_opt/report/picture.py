@@ -29,6 +29,7 @@ from rrnn_opt.report.palette import (
     TREES,
     time_colours,
 )
+from rrnn_opt.report.save import save
 from rrnn_opt.report.stage import drawn
 
 Array = NDArray[np.float64]
@@ -76,7 +77,7 @@ def picture(document: dict[str, Any], drawing: Drawing | None = None) -> bytes:
     for place, panel in zip(_places(len(panels)), panels, strict=True):
         panel(figure.add_axes(place))
     raw = io.BytesIO()
-    figure.savefig(raw, format="png")
+    save(figure, raw, format="png")
     image = Image.open(raw).convert("RGB").reduce(OVERSAMPLING)
     small = io.BytesIO()
     image.save(small, format="png", optimize=False)

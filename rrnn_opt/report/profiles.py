@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.report.charts import INK
+from rrnn_opt.report.save import save
 
 LABELLED = 9
 _COLOURS = (
@@ -51,7 +52,7 @@ def draw_profiles(
         for side in ("top", "right"):
             axis.spines[side].set_visible(False)
     raw = io.BytesIO()
-    figure.savefig(raw, format="png", metadata={"Software": None})
+    save(figure, raw, format="png", metadata={"Software": None})
     return raw.getvalue()
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rrnn_opt.errors import DocumentError
 from rrnn_opt.report.charts import INK
 from rrnn_opt.report.files import write_bytes
+from rrnn_opt.report.save import save
 
 Array = NDArray[np.float64]
 KIND = "rrnn_opt region map"
@@ -51,7 +52,7 @@ def draw_region(document: dict[str, Any], path: str | Path) -> Path:
         axes.set_ylabel(names[1], fontsize=8)
         axes.tick_params(labelsize=7)
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=110)
+    save(figure, buffer, format="png", dpi=110)
     return write_bytes(path, buffer.getvalue())
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.report.charts import CURVES, LIMIT, dress
+from rrnn_opt.report.save import save
 
 Array = NDArray[np.float64]
 
@@ -40,7 +41,7 @@ def draw_tracking(
     for level in (-1.0, 1.0):
         velocity.axhline(level, color=LIMIT, lw=1.0, ls=(0, (4, 3)))
     dress(velocity, "joint velocity / limit", "time [s]", t)
-    figure.savefig(file, format="png")
+    save(figure, file, format="png")
 
 
 def _curve(axes: Any, reference: Array, tip: Array) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, get_args
 
@@ -38,10 +38,12 @@ class Scene:
     obstacles: tuple[Member, ...] = ()
 
     def __post_init__(self) -> None:
-        if not isinstance(self.obstacles, Iterable):
+        try:
+            given = tuple(self.obstacles)
+        except TypeError:
             message = f"expected shapes, got {fields.shown(self.obstacles)}"
-            raise ProblemError("obstacles", message)
-        object.__setattr__(self, "obstacles", tuple(self.obstacles))
+            raise ProblemError("obstacles", message) from None
+        object.__setattr__(self, "obstacles", given)
         for index, obstacle in enumerate(self.obstacles):
             if not isinstance(obstacle, Member):
                 message = f"expected a shape, got {fields.shown(obstacle)}"

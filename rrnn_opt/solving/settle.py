@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import Dynamics
-from rrnn_opt.errors import InfeasibleQpError, RrnnError
+from rrnn_opt.errors import InfeasibleQpError, RrnnError, ShapeError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks import LviPdnn
 from rrnn_opt.networks.step_size import settling_step
@@ -106,6 +106,7 @@ def settle(
     Raises:
         RrnnError: the network comes from no formulation, or a parameter is
             missing, unknown, of the wrong shape or not finite.
+        ShapeError: the start is not a state of the network.
     """
     return settle_at(
         default_network(dyn) if isinstance(dyn, Formulation) else dyn,
@@ -183,7 +184,10 @@ def _start(
     """The given state, or where the network begins by itself."""
     if start is None:
         return network.start(values)
-    return np.array(start, dtype=np.float64).reshape(network.dynamics.state.size)
+    state = np.array(start, dtype=np.float64)
+    if state.size != network.dynamics.state.size:
+        raise ShapeError("start", (network.dynamics.state.size,), state.shape)
+    return state.reshape(-1)
 
 
 def _info(attempt: Attempt, time_s: float) -> SettleInfo:

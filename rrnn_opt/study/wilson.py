@@ -19,10 +19,13 @@ def wilson(successes: int, n: int, *, confidence: float = 0.95) -> tuple[float, 
         Lower and upper limit, both in [0, 1].
 
     Raises:
-        RrnnError: successes is not between 0 and n.
+        RrnnError: successes is not between 0 and n, or confidence not between 0
+            and 1.
     """
     if not 0 <= successes <= n:
         raise RrnnError(f"{successes} successes in {n} cases")
+    if not 0.0 < confidence < 1.0:
+        raise RrnnError(f"confidence must lie between 0 and 1, not {confidence}")
     if n == 0:
         return 0.0, 1.0
     from scipy.stats import binomtest

@@ -139,6 +139,7 @@ def _ports(rows: Sequence[Any]) -> tuple[Port, ...]:
 
 def _step(row: Sequence[Any]) -> Step:
     op, out, args, const, slot = row
+    _require(slot is None or len(slot) == 2, "a slot is a port and an element")
     return Step(
         str(op),
         int(out),
