@@ -11,8 +11,9 @@ import rrnn_opt as rr
 from rrnn_opt.errors import ArgumentError, NotFiniteError, RrnnError
 from rrnn_opt.motion import Path
 from rrnn_opt.networks import LviPdnn, PrimalDual
-from rrnn_opt.planning import JointGoal, RandomRnn
+from rrnn_opt.planning import RandomRnn
 from rrnn_opt.robot import Limits
+from rrnn_opt.scene.library import scenario
 from rrnn_opt.study import wilson
 
 
@@ -58,8 +59,7 @@ def test_the_entry_that_is_wrong_is_named():
 
 
 def test_values_that_libraries_would_stumble_over_get_a_sentence():
-    robot = rr.Robot.builtin("planar3")
-    problem = rr.Problem(robot, [0.1, 0.2, 0.3], JointGoal([0.2, 0.2, 0.2]))
+    problem = rr.Problem.from_dict(scenario("window").problem(0))
     with pytest.raises(RrnnError, match="seed: must be zero or more, not -3"):
         rr.plan(problem, seed=-3)
     with pytest.raises(RrnnError, match="obstacles: expected shapes"):
