@@ -33,6 +33,7 @@ bench: $(VENV)/test.stamp
 
 soak: $(VENV)/test.stamp
 	$(PY) -m benchmarks.interval_soundness
+	$(PY) -m benchmarks.fuzz
 	$(PY) -m benchmarks.soak
 
 sanitize: $(VENV)/test.stamp
