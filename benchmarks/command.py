@@ -28,7 +28,7 @@ import rrnn_opt as rr
 from benchmarks.record import Benchmark, Row
 from benchmarks.search import cases
 from rrnn_opt.planning import Problem
-from rrnn_opt.planning.runtime_library import Search
+from rrnn_opt.planning.search.library import Search
 
 PARTS = ("search", "refine", "retime", "certificate")
 ROUNDS, REPEATS, PLANS, MANY = 3, 3, 20, 560

@@ -16,9 +16,9 @@ import numpy as np
 
 import rrnn_opt as rr
 from rrnn_opt.planning import Problem, RandomRnn
-from rrnn_opt.planning.request import pack
-from rrnn_opt.planning.runtime_cache import runtime_of
-from rrnn_opt.planning.runtime_library import Search
+from rrnn_opt.planning.search.cache import runtime_of
+from rrnn_opt.planning.search.library import Search
+from rrnn_opt.planning.search.request import pack
 from rrnn_opt.scene.library import scenario
 
 COUNTS = (1, 10, 100, 1000, 10_000)

@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 
 from benchmarks.record import Benchmark, Row
 from rrnn_opt.planning import Problem, RandomRnn
-from rrnn_opt.planning.request import pack
-from rrnn_opt.planning.runtime_cache import runtime_of
-from rrnn_opt.planning.runtime_library import Search
+from rrnn_opt.planning.search.cache import runtime_of
+from rrnn_opt.planning.search.library import Search
+from rrnn_opt.planning.search.request import pack
 from rrnn_opt.scene.library import scenario
 
 Array = NDArray[np.float64]

@@ -25,9 +25,9 @@ import rrnn_opt as rr
 from benchmarks.clutter import scenes
 from benchmarks.record import surroundings
 from rrnn_opt.planning import Problem, RandomRnn
-from rrnn_opt.planning.request import pack
-from rrnn_opt.planning.runtime_cache import runtime_of
-from rrnn_opt.planning.runtime_library import Search
+from rrnn_opt.planning.search.cache import runtime_of
+from rrnn_opt.planning.search.library import Search
+from rrnn_opt.planning.search.request import pack
 from rrnn_opt.validation.tables.starts import start_problem
 
 DATA = pathlib.Path(__file__).parent / "data" / "mbm_panda.json"

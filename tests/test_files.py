@@ -7,7 +7,7 @@ import pytest
 
 from rrnn_opt.errors import DocumentError, ProblemError
 from rrnn_opt.files import from_python, read_bytes, read_json, read_text
-from rrnn_opt.planning.problem import Problem
+from rrnn_opt.planning.problem.problem import Problem
 
 START = '{"robot": "planar3", "goal": {"position": [1, 1, 0]}, "start": '
 

@@ -26,7 +26,7 @@ def robot_calls() -> dict[str, Call]:
     """Robots, scenes and problems."""
     import rrnn_opt as rr
     from rrnn_opt import planning, robot, scene
-    from rrnn_opt.planning.attached import Attached
+    from rrnn_opt.planning.problem.attached import Attached
 
     arm = rr.Robot.builtin("planar3")
     pose = {"position": [0.0, 0.0, 0.0], "quat_xyzw": [0.0, 0.0, 0.0, 1.0]}

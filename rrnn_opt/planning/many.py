@@ -13,7 +13,7 @@ from typing import Any
 from rrnn_opt.arguments import checked
 from rrnn_opt.errors import ProblemError
 from rrnn_opt.planning.planner import plan
-from rrnn_opt.planning.problem import Problem
+from rrnn_opt.planning.problem.problem import Problem
 from rrnn_opt.planning.result import PlanResult
 
 SHARE = 8

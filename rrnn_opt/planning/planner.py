@@ -12,19 +12,25 @@ from rrnn_opt import check
 from rrnn_opt.arguments import checked
 from rrnn_opt.errors import ProblemError, RetimeError
 from rrnn_opt.motion import Delivery, Trajectory, deliver
-from rrnn_opt.planning.feasibility import Infeasible, OpenGoals, blocked, open_goals
-from rrnn_opt.planning.problem import Problem
-from rrnn_opt.planning.refine import length, refine
-from rrnn_opt.planning.request import pack
+from rrnn_opt.planning.problem.problem import Problem
 from rrnn_opt.planning.result import PlanResult
-from rrnn_opt.planning.rollout_library import point_goals, thinned
-from rrnn_opt.planning.rollout_settings import SingleRollout
+from rrnn_opt.planning.rollout.library import point_goals, thinned
 from rrnn_opt.planning.run import Run
-from rrnn_opt.planning.runtime_cache import judge_of
-from rrnn_opt.planning.runtime_library import Runtime, Search
+from rrnn_opt.planning.search.cache import judge_of
+from rrnn_opt.planning.search.feasibility import (
+    Infeasible,
+    OpenGoals,
+    blocked,
+    open_goals,
+)
+from rrnn_opt.planning.search.library import Runtime, Search
+from rrnn_opt.planning.search.refine import length, refine
+from rrnn_opt.planning.search.request import pack
+from rrnn_opt.planning.search.trees import tree_document
 from rrnn_opt.planning.searches import open_search, runtime_for
-from rrnn_opt.planning.settings import PLANNERS, PlannerSettings, RandomRnn
-from rrnn_opt.planning.trees import tree_document
+from rrnn_opt.planning.settings.planners import PLANNERS, PlannerSettings
+from rrnn_opt.planning.settings.random_rnn import RandomRnn
+from rrnn_opt.planning.settings.rollout import SingleRollout
 
 Array = NDArray[np.float64]
 Progress = Callable[[str, int], None]

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.motion import Trajectory
-from rrnn_opt.planning.problem import Problem
+from rrnn_opt.planning.problem.problem import Problem
 from rrnn_opt.planning.result import PlanResult, PlanStats
-from rrnn_opt.planning.settings import PlannerSettings
-from rrnn_opt.planning.structs import SearchCounts
+from rrnn_opt.planning.search.structs import SearchCounts
+from rrnn_opt.planning.settings.planners import PlannerSettings
 
 Array = NDArray[np.float64]
 

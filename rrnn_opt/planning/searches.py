@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from rrnn_opt.planning.request import PackedRequest
-from rrnn_opt.planning.rollout_library import RolloutSearch, rollout_runtime_of
-from rrnn_opt.planning.runtime_cache import runtime_of
-from rrnn_opt.planning.runtime_library import Runtime, Search
-from rrnn_opt.planning.settings import PlannerSettings, RandomRnn
+from rrnn_opt.planning.rollout.library import RolloutSearch, rollout_runtime_of
+from rrnn_opt.planning.search.cache import runtime_of
+from rrnn_opt.planning.search.library import Runtime, Search
+from rrnn_opt.planning.search.request import PackedRequest
+from rrnn_opt.planning.settings.planners import PlannerSettings
+from rrnn_opt.planning.settings.random_rnn import RandomRnn
 from rrnn_opt.robot import Robot
 
 

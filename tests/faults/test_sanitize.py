@@ -41,7 +41,7 @@ def test_what_is_broken_is_found_and_nothing_else(bench, grow, far):
 
 @pytest.mark.slow
 def test_the_planner_is_clean(bench):
-    room = "tests/planning/test_runtime_library.py"
+    room = "tests/planning/search/test_library.py"
     outcome, findings = sanitize.run(room, 0, slow=False)
     assert outcome["passed"] > 0
     assert outcome["failed"] == 0

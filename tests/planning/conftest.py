@@ -7,9 +7,9 @@ import pytest
 
 import rrnn_opt as rr
 from rrnn_opt.networks import MemoryCell
-from rrnn_opt.planning.request import pack
-from rrnn_opt.planning.runtime_library import Runtime, Search
-from rrnn_opt.planning.settings import RandomRnn
+from rrnn_opt.planning.search.library import Runtime, Search
+from rrnn_opt.planning.search.request import pack
+from rrnn_opt.planning.settings.random_rnn import RandomRnn
 from rrnn_opt.scene.library import scenario
 
 

@@ -9,9 +9,9 @@ from scipy import stats
 import rrnn_opt as rr
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning import PaperRnn, Problem, RandomRnn, plan
-from rrnn_opt.planning.request import pack
-from rrnn_opt.planning.rollout_library import RolloutSearch, rollout_runtime_of
-from rrnn_opt.planning.runtime_library import Runtime
+from rrnn_opt.planning.rollout.library import RolloutSearch, rollout_runtime_of
+from rrnn_opt.planning.search.library import Runtime
+from rrnn_opt.planning.search.request import pack
 
 RANDOM = RandomRnn(coin=1.0, connect=False)
 APART = {

@@ -160,12 +160,12 @@ def test_unknown_planner_and_budget_are_refused(window_problem):
 
 
 def test_without_a_compiler_one_sentence(window_problem, monkeypatch, tmp_path):
-    from rrnn_opt.planning import runtime_cache
+    from rrnn_opt.planning.search import cache
 
     def none(*_args, **_kwargs):
         raise CompilerError("no C compiler; install gcc")
 
-    runtime_cache._runtime.cache_clear()
+    cache._runtime.cache_clear()
     monkeypatch.setattr("rrnn_opt.emit.build", none)
     with pytest.raises(CompilerError, match="install"):
         plan(Problem.from_dict(window_problem()))

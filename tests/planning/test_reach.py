@@ -9,7 +9,7 @@ import rrnn_opt as rr
 from rrnn_opt.check import certify_trajectory
 from rrnn_opt.errors import DocumentError, ProblemError
 from rrnn_opt.planning import Problem
-from rrnn_opt.planning.attached import with_attached
+from rrnn_opt.planning.problem.attached import with_attached
 
 
 def box_obj(path, size, position):

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.planning import PaperRnn, Problem, RandomRnn
-from rrnn_opt.planning.request import pack
+from rrnn_opt.planning.search.request import pack
 from rrnn_opt.planning.searches import open_search, runtime_for
-from rrnn_opt.planning.settings import PlannerSettings
+from rrnn_opt.planning.settings.planners import PlannerSettings
 from rrnn_opt.report.charts import CURVES, dress
 from rrnn_opt.validation.figures.figure_2 import write
 from rrnn_opt.validation.tables.starts import start_problem

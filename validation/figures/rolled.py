@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.planning import PlanResult, Problem, plan
-from rrnn_opt.planning.request import pack
-from rrnn_opt.planning.rollout_library import RolloutSearch, rollout_runtime_of
-from rrnn_opt.planning.rollout_settings import RolloutSettings
+from rrnn_opt.planning.rollout.library import RolloutSearch, rollout_runtime_of
+from rrnn_opt.planning.search.request import pack
+from rrnn_opt.planning.settings.rollout import RolloutSettings
 
 Array = NDArray[np.float64]
 

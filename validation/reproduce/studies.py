@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.planning import PaperRnn, Problem, SingleRollout, plan
-from rrnn_opt.planning.settings import PlannerSettings
+from rrnn_opt.planning.settings.planners import PlannerSettings
 from rrnn_opt.study import Case
 from rrnn_opt.validation.figures.figure_3 import COLUMNS, GAINS
 from rrnn_opt.validation.figures.figure_4 import STARTS

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rrnn_opt.planning import RandomRnn
-from rrnn_opt.planning.settings import PlannerSettings
+from rrnn_opt.planning.settings.planners import PlannerSettings
 from rrnn_opt.report.files import write_text
 from rrnn_opt.validation.studies.searching import run_study, summary
 

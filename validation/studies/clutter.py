@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.planning import Problem
-from rrnn_opt.planning.feasibility import blocked
-from rrnn_opt.planning.goals import goals_from_data
-from rrnn_opt.planning.request import pack
-from rrnn_opt.planning.runtime_cache import runtime_of
-from rrnn_opt.planning.runtime_library import Search
-from rrnn_opt.planning.settings import RandomRnn
+from rrnn_opt.planning.problem.goals import goals_from_data
+from rrnn_opt.planning.search.cache import runtime_of
+from rrnn_opt.planning.search.feasibility import blocked
+from rrnn_opt.planning.search.library import Search
+from rrnn_opt.planning.search.request import pack
+from rrnn_opt.planning.settings.random_rnn import RandomRnn
 from rrnn_opt.robot import Robot
 from rrnn_opt.robot.bound import reach_ball
 from rrnn_opt.scene.reading import scene_from_list

@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.planning import Problem, RandomRnn, plan
-from rrnn_opt.planning.goals import JointGoal
+from rrnn_opt.planning.problem.goals import JointGoal
 from rrnn_opt.report import write_text
 from rrnn_opt.study import Lines, read_lines
 from rrnn_opt.study.environment import commit

@@ -18,7 +18,7 @@ import numpy as np
 
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning import RandomRnn
-from rrnn_opt.planning.settings import PlannerSettings
+from rrnn_opt.planning.settings.planners import PlannerSettings
 from rrnn_opt.report.files import write_text
 from rrnn_opt.validation.studies.searching import (
     Searches,

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.planning import Problem, RandomRnn
-from rrnn_opt.planning.feasibility import nearest_turn
-from rrnn_opt.planning.request import pack, sampling_box
-from rrnn_opt.planning.runtime_cache import runtime_of
-from rrnn_opt.planning.runtime_library import Search
+from rrnn_opt.planning.search.cache import runtime_of
+from rrnn_opt.planning.search.feasibility import nearest_turn
+from rrnn_opt.planning.search.library import Search
+from rrnn_opt.planning.search.request import pack, sampling_box
 
 Array = NDArray[np.float64]
 RESOLUTION = 1 / 32

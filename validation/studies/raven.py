@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.planning import Problem, RandomRnn, plan
-from rrnn_opt.planning.request import pack
+from rrnn_opt.planning.search.request import pack
 from rrnn_opt.planning.searches import open_search, runtime_for
 from rrnn_opt.report import write_text
 from rrnn_opt.scene.library import scenario

@@ -10,8 +10,8 @@ from itertools import product
 from pathlib import Path
 
 from rrnn_opt.planning import PaperRnn
-from rrnn_opt.planning.rollout_settings import Feed, Order, Reading, Region
-from rrnn_opt.planning.settings import PlannerSettings
+from rrnn_opt.planning.settings.planners import PlannerSettings
+from rrnn_opt.planning.settings.rollout import Feed, Order, Reading, Region
 from rrnn_opt.report.files import write_text
 from rrnn_opt.validation.studies.searching import run_study, summary
 

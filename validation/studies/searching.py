@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.planning import Problem
-from rrnn_opt.planning.settings import PlannerSettings
+from rrnn_opt.planning.settings.planners import PlannerSettings
 from rrnn_opt.study import Case, wilson
 from rrnn_opt.validation.tables.cell import markdown
 from rrnn_opt.validation.tables.collect import collect, surroundings

@@ -7,11 +7,12 @@ from typing import Any
 
 from rrnn_opt.errors import ProblemError
 from rrnn_opt.planning import Problem
-from rrnn_opt.planning.feasibility import Infeasible, open_goals
-from rrnn_opt.planning.request import pack
-from rrnn_opt.planning.rollout_library import point_goals
+from rrnn_opt.planning.rollout.library import point_goals
+from rrnn_opt.planning.search.feasibility import Infeasible, open_goals
+from rrnn_opt.planning.search.request import pack
 from rrnn_opt.planning.searches import open_search, runtime_for
-from rrnn_opt.planning.settings import PlannerSettings, RandomRnn
+from rrnn_opt.planning.settings.planners import PlannerSettings
+from rrnn_opt.planning.settings.random_rnn import RandomRnn
 
 SLICE_S = 3600.0
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.planning import Problem, RandomRnn
-from rrnn_opt.planning.request import pack
+from rrnn_opt.planning.search.request import pack
 from rrnn_opt.planning.searches import open_search, runtime_for
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.scene.library import scenario

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.planning import PaperRnn, Problem, RandomRnn, SingleRollout, plan
-from rrnn_opt.planning.settings import PlannerSettings
+from rrnn_opt.planning.settings.planners import PlannerSettings
 from rrnn_opt.study import Case
 from rrnn_opt.validation.tables.searched import searched
 from rrnn_opt.validation.tables.starts import start_problem

@@ -10,9 +10,9 @@ import rrnn_opt as rr
 from rrnn_opt.check.plans.goal import nearest_goal
 from rrnn_opt.check.plans.robot.model import read_model
 from rrnn_opt.planning import Problem
-from rrnn_opt.planning.drives import drive_functions
-from rrnn_opt.planning.goals import TipGoal, goals_from_data
-from rrnn_opt.planning.request import tip_target
+from rrnn_opt.planning.kernel.drives import drive_functions
+from rrnn_opt.planning.problem.goals import TipGoal, goals_from_data
+from rrnn_opt.planning.search.request import tip_target
 
 PLACE = [0.45, 0.1, 0.6]
 TURNED = [0.5, -0.5, 0.5, 0.5]

@@ -14,8 +14,12 @@ from numpy.typing import NDArray
 from rrnn_opt.arguments import checked
 from rrnn_opt.errors import ProblemError, RobotError
 from rrnn_opt.files import read_json
-from rrnn_opt.planning.attached import Attached, attached_from_list, with_attached
-from rrnn_opt.planning.goals import Goal, JointGoal, goal_name, goals_from_data
+from rrnn_opt.planning.problem.attached import (
+    Attached,
+    attached_from_list,
+    with_attached,
+)
+from rrnn_opt.planning.problem.goals import Goal, JointGoal, goal_name, goals_from_data
 from rrnn_opt.robot.builtin import BUILTIN
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.scene import fields

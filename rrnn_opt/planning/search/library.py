@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from rrnn_opt import emit
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.networks import MemoryCell
-from rrnn_opt.planning.kernel import PREFIX, source
-from rrnn_opt.planning.settings import RandomRnn
-from rrnn_opt.planning.structs import (
+from rrnn_opt.planning.kernel.source import PREFIX, source
+from rrnn_opt.planning.search.structs import (
     NEAR_MAX,
     Closest,
     Contact,
@@ -25,6 +24,7 @@ from rrnn_opt.planning.structs import (
     Settings,
     settings_struct,
 )
+from rrnn_opt.planning.settings.random_rnn import RandomRnn
 from rrnn_opt.robot import Robot
 
 Array = NDArray[np.float64]

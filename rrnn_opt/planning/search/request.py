@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.planning.goals import AXES, TipGoal
-from rrnn_opt.planning.problem import Problem
-from rrnn_opt.planning.structs import Request, TipTarget
+from rrnn_opt.planning.problem.goals import AXES, TipGoal
+from rrnn_opt.planning.problem.problem import Problem
+from rrnn_opt.planning.search.structs import Request, TipTarget
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.formulations.signs import Band
 from rrnn_opt.formulations.slide import row
 from rrnn_opt.networks import MemoryCell
-from rrnn_opt.planning.kernel import source
+from rrnn_opt.planning.kernel.source import source
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.robot.bound import ancestor_mask
 
@@ -185,7 +185,7 @@ def rollout_source(robot: Robot, cell: MemoryCell, c1: float, c2: float) -> str:
         *scheme_functions(robot),
     ]
     texts = [emit.c_function(f, f.name()) for f in functions]
-    room = pathlib.Path(__file__).with_name("runtime")
+    room = pathlib.Path(__file__).parents[1] / "runtime"
     runtime = [(room / name).read_text("utf-8") for name in RUNTIME]
     head = [source(robot, cell), moving_table(robot)]
     return "\n".join([*head, *texts, *runtime])

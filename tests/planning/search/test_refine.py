@@ -7,7 +7,7 @@ import pytest
 
 from rrnn_opt.errors import ProblemError
 from rrnn_opt.planning import Problem, RandomRnn, plan
-from rrnn_opt.planning.refine import length, refine
+from rrnn_opt.planning.search.refine import length, refine
 from rrnn_opt.scene.library import scenario
 
 

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from rrnn_opt.check import Judge
 from rrnn_opt.networks import MemoryCell
-from rrnn_opt.planning.runtime_library import Runtime
+from rrnn_opt.planning.search.library import Runtime
 from rrnn_opt.robot import Robot
 
 

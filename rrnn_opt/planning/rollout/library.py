@@ -13,20 +13,20 @@ from numpy.typing import NDArray
 from rrnn_opt import emit
 from rrnn_opt.errors import ProblemError, RrnnError
 from rrnn_opt.networks import MemoryCell
-from rrnn_opt.planning.feasibility import OpenGoals
-from rrnn_opt.planning.rollout_kernel import rollout_source
-from rrnn_opt.planning.rollout_settings import PaperRnn, RolloutSettings
-from rrnn_opt.planning.rollout_structs import RolloutStruct, rollout_struct
-from rrnn_opt.planning.runtime_cache import robot_text
-from rrnn_opt.planning.runtime_library import (
+from rrnn_opt.planning.rollout.kernel import rollout_source
+from rrnn_opt.planning.rollout.structs import RolloutStruct, rollout_struct
+from rrnn_opt.planning.search.cache import robot_text
+from rrnn_opt.planning.search.feasibility import OpenGoals
+from rrnn_opt.planning.search.library import (
     FLAGS,
     STATUS,
     Runtime,
     Search,
     Tree,
 )
-from rrnn_opt.planning.settings import RandomRnn
-from rrnn_opt.planning.structs import Request
+from rrnn_opt.planning.search.structs import Request
+from rrnn_opt.planning.settings.random_rnn import RandomRnn
+from rrnn_opt.planning.settings.rollout import PaperRnn, RolloutSettings
 from rrnn_opt.robot import Robot
 
 Array = NDArray[np.float64]

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from rrnn_opt.errors import ProblemError, RobotError
-from rrnn_opt.planning.goals import JointGoal, TipGoal
-from rrnn_opt.planning.problem import Problem
+from rrnn_opt.planning.problem.goals import JointGoal, TipGoal
+from rrnn_opt.planning.problem.problem import Problem
 from rrnn_opt.scene import Box, Scene
 from rrnn_opt.scene.library import SCENARIOS, scenario
-from tests.planning.documents import changed, minimal, one_joint, valid
+from tests.planning.problem.documents import changed, minimal, one_joint, valid
 
 
 def test_reads_everything():

@@ -8,7 +8,7 @@ import pytest
 
 import rrnn_opt as rr
 from rrnn_opt.planning import Problem, RandomRnn
-from rrnn_opt.planning.goals import goals_from_data
+from rrnn_opt.planning.problem.goals import goals_from_data
 from rrnn_opt.scene.reading import scene_from_list
 
 

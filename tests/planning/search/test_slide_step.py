@@ -10,8 +10,9 @@ import qpsolvers
 import rrnn_opt as rr
 from rrnn_opt.formulations import slide
 from rrnn_opt.networks import MemoryCell
-from rrnn_opt.planning import Problem, RandomRnn, kernel
-from rrnn_opt.planning.runtime_library import Runtime
+from rrnn_opt.planning import Problem, RandomRnn
+from rrnn_opt.planning.kernel import source as kernel
+from rrnn_opt.planning.search.library import Runtime
 
 SETTINGS = RandomRnn()
 CONVERGED = RandomRnn(sweeps=100_000, sweep_least=1e-13, passes=60)

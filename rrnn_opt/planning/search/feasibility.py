@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.planning.goals import JointGoal, TipGoal
-from rrnn_opt.planning.problem import Problem
-from rrnn_opt.planning.runtime_library import Search
-from rrnn_opt.planning.structs import Contact
+from rrnn_opt.planning.problem.goals import JointGoal, TipGoal
+from rrnn_opt.planning.problem.problem import Problem
+from rrnn_opt.planning.search.library import Search
+from rrnn_opt.planning.search.structs import Contact
 from rrnn_opt.robot.bound import reach_ball
 from rrnn_opt.robot.robot import CONTINUOUS, Robot
 

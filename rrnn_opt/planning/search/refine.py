@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.motion import shortcut
-from rrnn_opt.planning.runtime_library import Search
-from rrnn_opt.planning.settings import RandomRnn
+from rrnn_opt.planning.search.library import Search
+from rrnn_opt.planning.settings.random_rnn import RandomRnn
 
 Array = NDArray[np.float64]
 NewSearch = Callable[[int], Search]

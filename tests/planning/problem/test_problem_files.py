@@ -9,12 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rrnn_opt.errors import DocumentError, ProblemError, RobotError
-from rrnn_opt.planning.goals import JointGoal
-from rrnn_opt.planning.problem import Problem
+from rrnn_opt.planning.problem.goals import JointGoal
+from rrnn_opt.planning.problem.problem import Problem
 from rrnn_opt.robot.robot import Robot
-from tests.planning.documents import minimal, one_joint, valid
+from tests.planning.problem.documents import minimal, one_joint, valid
 
-FAMILIES = sorted((Path(__file__).parents[1] / "data" / "mbm").glob("*.json"))
+FAMILIES = sorted((Path(__file__).parents[2] / "data" / "mbm").glob("*.json"))
 
 
 def test_files_are_sought_beside_the_problem_file(tmp_path, monkeypatch):

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 
 from rrnn_opt.arguments import checked
 from rrnn_opt.networks import MemoryCell
-from rrnn_opt.planning.rollout_settings import PaperRnn, RolloutSettings, SingleRollout
 
 
 @checked()
@@ -74,15 +73,3 @@ class RandomRnn:
     close_after: int = 50
     refinements: int = 3
     shorten_slides: int = 20
-
-
-PlannerSettings = RandomRnn | RolloutSettings
-
-PLANNERS: dict[str, PlannerSettings] = {
-    "random-rnn": RandomRnn(),
-    "no-learning": RandomRnn(coin=0.5),
-    "paper": PaperRnn(),
-    "method1": SingleRollout(level="velocity"),
-    "method2": SingleRollout(level="acceleration"),
-}
-"""What each planner's name stands for; the type decides the search."""

@@ -14,9 +14,9 @@ import casadi as ca
 from rrnn_opt import emit
 from rrnn_opt.formulations.slide import offset, row, step_box
 from rrnn_opt.networks import MemoryCell
-from rrnn_opt.planning.dispatch import dispatch
-from rrnn_opt.planning.drives import drive_functions, emitted_function
-from rrnn_opt.planning.tables import LANES, tables
+from rrnn_opt.planning.kernel.dispatch import dispatch
+from rrnn_opt.planning.kernel.drives import drive_functions, emitted_function
+from rrnn_opt.planning.kernel.tables import LANES, tables
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.robot.motion_bound import motion_bound, travel
 from rrnn_opt.scene.distance import PRIMITIVES, distance_function
@@ -170,7 +170,7 @@ def emitted(robot: Robot, cell: MemoryCell) -> str:
 
 def source(robot: Robot, cell: MemoryCell) -> str:
     """The whole translation unit of a robot's planner, C99."""
-    room = pathlib.Path(__file__).with_name("runtime")
+    room = pathlib.Path(__file__).parents[1] / "runtime"
     runtime = [(room / name).read_text("utf-8") for name in RUNTIME]
     head = f"#define _POSIX_C_SOURCE 199309L\n#define NAME(x) {PREFIX}##x\n"
     prologue = emit.prologue("double", support=("hildreth.h",))

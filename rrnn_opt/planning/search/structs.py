@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.planning.settings import RandomRnn
+from rrnn_opt.planning.settings.random_rnn import RandomRnn
 
 Array = NDArray[np.float64]
 NEAR_MAX = 4096

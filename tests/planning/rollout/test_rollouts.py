@@ -16,12 +16,12 @@ from rrnn_opt.formulations import joint_sign_sets, method1, method2
 from rrnn_opt.formulations.signs import Band
 from rrnn_opt.networks import PrimalDual
 from rrnn_opt.planning import PaperRnn, Problem, RandomRnn, SingleRollout, plan
-from rrnn_opt.planning.request import pack
-from rrnn_opt.planning.rollout_library import (
+from rrnn_opt.planning.rollout.library import (
     RolloutSearch,
     rollout_runtime_of,
     thinned,
 )
+from rrnn_opt.planning.search.request import pack
 from rrnn_opt.robot.bound import reach_ball
 
 SAFE = 0.2

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rrnn_opt.planning.runtime_library import Search
+from rrnn_opt.planning.search.library import Search
 
 MOST_NODES = 4000
 """Nodes of each tree that a document keeps; the first ones."""

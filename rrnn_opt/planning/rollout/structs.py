@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.planning.rollout_settings import PaperRnn, RolloutSettings, SingleRollout
-from rrnn_opt.planning.settings import RandomRnn
+from rrnn_opt.planning.settings.random_rnn import RandomRnn
+from rrnn_opt.planning.settings.rollout import PaperRnn, RolloutSettings, SingleRollout
 from rrnn_opt.robot import Robot
 from rrnn_opt.robot.bound import reach_ball
 

@@ -1,0 +1,1 @@
+"""What is asked: robot, start, goals, scene and held objects, checked when built."""

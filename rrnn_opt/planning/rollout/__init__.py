@@ -1,0 +1,1 @@
+"""The printed schemes, rolled out in time by the compiled runtime."""

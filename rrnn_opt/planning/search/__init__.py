@@ -1,0 +1,1 @@
+"""The compiled tree search of one robot: asked through arrays, answered in paths."""

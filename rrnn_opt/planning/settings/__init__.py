@@ -1,0 +1,1 @@
+"""What may be chosen: the settings of each planner, as frozen data."""
