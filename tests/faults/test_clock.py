@@ -15,7 +15,7 @@ from tests.faults.conftest import HERE, PROBLEM
 from tests.faults.test_compilers import SOURCE
 
 AGES = {"rrnn_opt/emit/cache.py", "rrnn_opt/report/files.py"}
-AGES |= {"rrnn_opt/embedding/package.py"}
+AGES |= {"rrnn_opt/embedding/placing.py"}
 """Where the wall clock is right: the age of a file that someone left."""
 WALL = {("time", "time"), ("time", "time_ns")}
 DATES = {"now", "today", "utcnow"}

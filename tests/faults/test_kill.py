@@ -18,7 +18,7 @@ import pytest
 from tests.faults.conftest import furnished, whole
 
 ROUNDS = int(os.environ.get("RRNN_FAULTS", "1"))
-CLI = "rrnn_opt.cli.start"
+CLI, DEADLY = "rrnn_opt.cli.start", "benchmarks.faults.deadly"
 PLAN = (CLI, "plan", "problem.json", "--out", "out", "--json")
 GENERATE = (CLI, "generate", "minimum_velocity", "--robot", "planar3", "--out", "out")
 SPHERES = (CLI, "spheres", "arm.urdf", "--out", "out/spheres.json")
@@ -58,7 +58,7 @@ def contents(place):
 @pytest.mark.parametrize("name", COMMANDS)
 def test_killed_before_any_change_of_a_file(tmp_path, warm_cache, name):
     clean = furnished(tmp_path / "clean", warm_cache)
-    count_run = clean.run("tests.faults.deadly", "0", str(clean.out), *COMMANDS[name])
+    count_run = clean.run(DEADLY, "0", str(clean.out), *COMMANDS[name])
     assert count_run.returncode == 0, count_run.stderr
     count = int((clean.path / "count").read_text())
     assert count >= 3
@@ -66,7 +66,7 @@ def test_killed_before_any_change_of_a_file(tmp_path, warm_cache, name):
     for k in sample(count, 3 * ROUNDS, seed=count):
         place = furnished(tmp_path / str(k), warm_cache)
         words = (str(k), str(place.out), *COMMANDS[name])
-        assert place.run("tests.faults.deadly", *words).returncode == -signal.SIGKILL
+        assert place.run(DEADLY, *words).returncode == -signal.SIGKILL
         seen = [p for p in place.files() if not any(q[0] == "." for q in p.split("/"))]
         assert all(whole(place.out / name) for name in seen), seen
         place.age()
@@ -88,7 +88,7 @@ def test_killed_over_the_results_of_another_plan(tmp_path, warm_cache):
         place = furnished(tmp_path / str(k), warm_cache)
         shutil.copytree(first.path, place.path, dirs_exist_ok=True)
         words = (str(k), str(place.out), *PLAN)
-        code = place.run("tests.faults.deadly", *words).returncode
+        code = place.run(DEADLY, *words).returncode
         if code == 0:
             break
         rows = json.loads((place.out / "plan.json").read_text())["trajectory"]["q"]

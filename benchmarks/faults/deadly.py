@@ -1,6 +1,6 @@
 """A process that dies at its k-th dealing with the file system, or counts them.
 
-    python -m tests.faults.deadly KILL_AT FOLDER MODULE [ARGUMENT ...]
+    python -m benchmarks.faults.deadly KILL_AT FOLDER MODULE [ARGUMENT ...]
 
 Runs MODULE as a program.  Whatever it opens for writing, renames, removes or makes
 within FOLDER counts; at number KILL_AT the process is killed, before that happens.

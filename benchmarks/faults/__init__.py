@@ -1,0 +1,1 @@
+"""Commands that are killed, starved and interrupted, and what they leave."""
