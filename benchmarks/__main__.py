@@ -7,6 +7,7 @@ import importlib
 import sys
 
 from benchmarks.record import Benchmark
+from rrnn_opt.validation.ending import ended
 
 NAMES = (
     "kinematics",
@@ -49,4 +50,4 @@ def measure(name: str) -> bool:
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    sys.exit(ended(main))

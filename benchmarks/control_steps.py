@@ -34,7 +34,9 @@ from rrnn_opt.embedding import generate
 from rrnn_opt.emit import find_compiler
 from rrnn_opt.emit.program import program_source
 from rrnn_opt.report import write_text
+from rrnn_opt.study.environment import commit
 from rrnn_opt.symbolic import Tape
+from rrnn_opt.validation.ending import ended
 
 HARNESS = Path(__file__).with_name("control_steps.c")
 PAGE = Path(__file__).parents[1] / "docs" / "results" / "control_steps.md"
@@ -150,7 +152,7 @@ def report(found: dict[Case, dict[str, Any]], command: str) -> str:
         "# Random control steps, monitor on",
         "",
         f"Made by `{command}` on {time.strftime('%Y-%m-%d', time.gmtime())}, commit"
-        f" {_commit()}, {find_compiler().version}.",
+        f" {commit() or 'unknown'}, {find_compiler().version}.",
         "",
         *_words(),
         "",
@@ -191,13 +193,6 @@ def _line(case: Case, row: dict[str, Any]) -> tuple[str, ...]:
     )
 
 
-def _commit() -> str:
-    words = ["git", "rev-parse", "--short", "HEAD"]
-    here = Path(__file__).parent
-    done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=here)
-    return done.stdout.strip() or "unknown"
-
-
 def main(argv: Sequence[str] | None = None) -> int:
     """Drive all cases; 1 when a promise was broken."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -216,4 +211,4 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

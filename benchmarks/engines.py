@@ -6,6 +6,7 @@ three, with the processes that the engines start.
 
 from __future__ import annotations
 
+import sys
 import time
 from fractions import Fraction
 
@@ -16,6 +17,7 @@ from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
 from rrnn_opt.decay import DecayClaim, corner_matrices
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.symbolic import Symbol
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.verification import certify
 
 
@@ -89,4 +91,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ended(main))

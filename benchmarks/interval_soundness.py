@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 import time
 from pathlib import Path
 
@@ -26,6 +27,7 @@ from rrnn_opt.claim import Claim, Relation
 from rrnn_opt.errors import UnsupportedOperationError
 from rrnn_opt.report import write_text
 from rrnn_opt.symbolic import Symbol
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.verification.document import claim_block
 from rrnn_opt.verification.engines.interval.forms import Forms
 
@@ -126,4 +128,4 @@ def _in_checker(
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    sys.exit(ended(main))

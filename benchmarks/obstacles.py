@@ -20,6 +20,7 @@ from rrnn_opt.planning.search.cache import runtime_of
 from rrnn_opt.planning.search.library import Search
 from rrnn_opt.planning.search.request import pack
 from rrnn_opt.scene.library import scenario
+from rrnn_opt.validation.ending import ended
 
 COUNTS = (1, 10, 100, 1000, 10_000)
 POINTS = 100_000
@@ -93,4 +94,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ended(main))

@@ -6,7 +6,6 @@ import datetime
 import json
 import os
 import platform
-import subprocess
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
@@ -14,6 +13,8 @@ from importlib import metadata
 from pathlib import Path
 
 import numpy as np
+
+from rrnn_opt.study.environment import commit
 
 RESULTS = Path(__file__).parent / "results"
 PACKAGES = ("rrnn_opt", "casadi", "numpy", "pin", "osqp", "daqp", "qpsolvers", "ompl")
@@ -108,7 +109,7 @@ def surroundings() -> dict:
         "system": platform.platform(),
         "compiler": find_compiler().version,
         "versions": {"python": platform.python_version()} | _versions(),
-        "commit": _commit(),
+        "commit": commit() or "unknown",
         "date": datetime.date.today().isoformat(),
     }
 
@@ -142,9 +143,3 @@ def _versions() -> dict[str, str]:
         except metadata.PackageNotFoundError:
             continue
     return found
-
-
-def _commit() -> str:
-    command = ["git", "-C", str(Path(__file__).parent), "rev-parse", "--short", "HEAD"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    return done.stdout.strip() or "unknown"

@@ -21,6 +21,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rrnn_opt.report import write_text
+from rrnn_opt.study.environment import commit
+from rrnn_opt.validation.ending import ended
 
 HERE = Path(__file__).resolve().parents[1]
 WORK = HERE / "runs" / "sanitize"
@@ -121,12 +123,12 @@ def report(rows: dict[str, tuple[Outcome, list[Path]]], command: str) -> str:
     findings = sum(len(files) for _, files in rows.values())
     tests = sum(outcome["passed"] for outcome, _ in rows.values())
     version = _first(["gcc", "--version"])
-    commit = _first(["git", "rev-parse", "--short", "HEAD"])
     lines = [
         "# Under the sanitizers",
         "",
-        f"`{command}` on {time.strftime('%Y-%m-%d', time.gmtime())}, commit {commit},",
-        f"{version}, `{FLAGS}`.",
+        f"`{command}` on {time.strftime('%Y-%m-%d', time.gmtime())},",
+        f"commit {commit() or 'unknown'}, {version},",
+        f"`{FLAGS}`.",
         "",
         "Every C text that these tests compile is built with the address and the",
         "undefined-behaviour sanitizer: the planner's runtime, simulations, programs,",
@@ -176,4 +178,4 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

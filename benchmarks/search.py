@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import json
 import pathlib
+import sys
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -28,6 +29,7 @@ from rrnn_opt.planning import Problem, RandomRnn
 from rrnn_opt.planning.search.cache import runtime_of
 from rrnn_opt.planning.search.library import Search
 from rrnn_opt.planning.search.request import pack
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.tables.starts import start_problem
 
 DATA = pathlib.Path(__file__).parent / "data" / "mbm_panda.json"
@@ -188,4 +190,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    sys.exit(ended(main))

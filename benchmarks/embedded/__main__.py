@@ -9,7 +9,9 @@ left out.  Needs gcc-arm-none-eabi, libnewlib-arm-none-eabi and qemu-system-arm.
 from __future__ import annotations
 
 import argparse
+import shutil
 import subprocess
+import sys
 from functools import partial
 from pathlib import Path
 
@@ -17,6 +19,7 @@ from benchmarks.embedded import codes, law
 from benchmarks.embedded.page import page
 from benchmarks.embedded.table import Cost, cost
 from rrnn_opt.embedding.target.board import BOARDS, require_tools
+from rrnn_opt.validation.ending import ended
 
 OUT = Path(__file__).parents[2] / "docs" / "results" / "embedded.md"
 REALS = ("float", "double")
@@ -55,7 +58,7 @@ def costs(maker: codes.Maker) -> list[Cost]:
 
 
 def _commit(tree: Path | None) -> str:
-    if tree is None:
+    if tree is None or shutil.which("git") is None:
         return ""
     command = ["git", "-C", str(tree), "rev-parse", "--short", "HEAD"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -63,4 +66,4 @@ def _commit(tree: Path | None) -> str:
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    sys.exit(ended(main))

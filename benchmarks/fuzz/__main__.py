@@ -23,6 +23,7 @@ from pathlib import Path
 
 from benchmarks.fuzz.entries import ENTRIES
 from benchmarks.fuzz.judging import ACCEPTED, BAD, REFUSED, Entry, judged
+from rrnn_opt.validation.ending import ended
 
 RESULTS = Path(__file__).parents[2] / "runs" / "fuzz"
 INPUTS = 24_000
@@ -157,4 +158,4 @@ def table(entries: Sequence[Entry], out: Path) -> str:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import io
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from rrnn_opt.planning import PaperRnn, Problem, plan
 from rrnn_opt.report.files import write_bytes
 from rrnn_opt.report.palette import END, OBSTACLE, START, TARGET, time_colours
 from rrnn_opt.robot import Kinematics
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.figures.rolled import rolled
 
 Array = NDArray[np.float64]
@@ -128,4 +130,4 @@ def main(argv: Sequence[str] | None = None) -> Path:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ended(main))

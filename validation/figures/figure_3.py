@@ -21,6 +21,7 @@ import numpy as np
 from rrnn_opt.report.charts import CURVES
 from rrnn_opt.report.files import write_bytes
 from rrnn_opt.simulation import SimulationResult
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.tables.tracking import ENTRIES, SIGMAS, Runner
 
 COLUMNS = ("method1", "method2", "method3", "proposed")
@@ -98,4 +99,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

@@ -8,11 +8,13 @@ Where a single rollout fails, its way up to there is drawn.
 from __future__ import annotations
 
 import io
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from rrnn_opt.planning import PlanResult, Problem, SingleRollout, plan
 from rrnn_opt.report.picture import draw_scene
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.figures.figure_2 import write
 from rrnn_opt.validation.figures.rolled import planned_or_rolled
 from rrnn_opt.validation.tables.starts import start_problem
@@ -60,4 +62,4 @@ def main(argv: Sequence[str] | None = None) -> Path:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ended(main))

@@ -9,6 +9,7 @@ colour.  Bottom: Algorithm 1 as printed, with every failure fed to the cell.
 from __future__ import annotations
 
 import io
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from rrnn_opt.planning.search.request import pack
 from rrnn_opt.planning.searches import open_search, runtime_for
 from rrnn_opt.planning.settings.planners import PlannerSettings
 from rrnn_opt.report.charts import CURVES, dress
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.figures.figure_2 import write
 from rrnn_opt.validation.tables.starts import start_problem
 from rrnn_opt.validation.tables.trials import SCENARIOS
@@ -86,4 +88,4 @@ def main(argv: Sequence[str] | None = None) -> Path:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ended(main))

@@ -19,6 +19,7 @@ from rrnn_opt.planning import Problem, plan
 from rrnn_opt.report.camera import View
 from rrnn_opt.report.picture import draw_scene
 from rrnn_opt.scene.library import scenario
+from rrnn_opt.validation.ending import ended
 
 START, SEED = 8, 8
 CLOSE = 0.17
@@ -70,4 +71,4 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

@@ -16,6 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rrnn_opt.report import write_bytes, write_text
+from rrnn_opt.validation.ending import ended
 
 PAGE, PREFIX = "reproduction", "reproduction_"
 COLOURS, WIDTH = 160, 1300
@@ -86,4 +87,4 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

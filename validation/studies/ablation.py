@@ -8,12 +8,14 @@ alone, goal postures included.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from rrnn_opt.planning import RandomRnn
 from rrnn_opt.planning.settings.planners import PlannerSettings
 from rrnn_opt.report.files import write_text
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.studies.searching import run_study, summary
 
 VARIANTS: dict[str, PlannerSettings] = {
@@ -39,4 +41,4 @@ def main(argv: Sequence[str] | None = None) -> Path:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ended(main))

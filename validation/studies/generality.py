@@ -24,11 +24,13 @@ from typing import Any
 
 import numpy as np
 
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.planning import Problem, RandomRnn, plan
 from rrnn_opt.planning.problem.goals import JointGoal
 from rrnn_opt.report import write_text
 from rrnn_opt.study import Lines, read_lines
 from rrnn_opt.study.environment import commit
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.studies.arms import ARMS, arm, contacts
 from rrnn_opt.validation.studies.clutter import scenes
 from rrnn_opt.validation.studies.generality_page import kept_lines, page
@@ -102,11 +104,24 @@ def found_arms(rows: Sequence[dict[str, Any]]) -> list[str]:
     return list(dict.fromkeys(row["arm"] for row in rows))
 
 
-def earlier_page(commit: str) -> str:
-    """The page as it was kept at a commit of the checkout."""
+def earlier_page(name: str) -> str:
+    """The page as it was kept at a commit of the checkout.
+
+    Raises:
+        RrnnError: there is no checkout, or no such page in it.
+    """
     here = Path(__file__).resolve().parent
-    words = ["git", "-C", str(here), "show", f"{commit}:docs/results/generality.md"]
-    return subprocess.run(words, capture_output=True, text=True, check=True).stdout
+    words = ["git", "-C", str(here), "show", "--end-of-options"]
+    words.append(f"{name}:docs/results/generality.md")
+    try:
+        done = subprocess.run(words, capture_output=True, text=True, check=True)
+    except (OSError, subprocess.SubprocessError, ValueError) as error:
+        said = (getattr(error, "stderr", "") or str(error)).splitlines()
+        raise RrnnError(
+            f"--earlier {name[:40]}: no page of that commit ({said[0]}); run from a"
+            " checkout that has it, or leave --earlier out"
+        ) from error
+    return done.stdout
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -119,6 +134,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--earlier", help="commit whose page has the missing arms")
     parser.add_argument("--out", type=Path, required=True)
     args = parser.parse_args(argv)
+    earlier = earlier_page(args.earlier) if args.earlier else ""
     peer = not args.no_peer
     for _ in run(args.arms, args.out, args.scenes, args.seed, peer=peer):
         pass
@@ -129,10 +145,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     found = contacts(args.out, found_arms(rows))
     text = page(rows, command, found, (BUDGET, PEER_LIMIT))
     if args.earlier:
-        text += kept_lines(earlier_page(args.earlier), args.earlier, found_arms(rows))
+        text += kept_lines(earlier, args.earlier, found_arms(rows))
     write_text(args.out / "generality.md", text)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

@@ -33,6 +33,7 @@ from rrnn_opt.formulation import Formulation
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.solving import Qpsolvers
 from rrnn_opt.study import Case, Results, Row, Study, processor
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.studies.block import Block
 from rrnn_opt.validation.studies.catalogue import (
     network_rules,
@@ -225,4 +226,4 @@ def _title(words: Sequence[str], rows: Sequence[Row]) -> list[str]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

@@ -8,6 +8,7 @@ probabilities show what a rule without memory can reach at best.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +21,7 @@ from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning import RandomRnn
 from rrnn_opt.planning.settings.planners import PlannerSettings
 from rrnn_opt.report.files import write_text
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.studies.searching import (
     Searches,
     picked,
@@ -153,4 +155,4 @@ def main(argv: Sequence[str] | None = None) -> Path:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ended(main))

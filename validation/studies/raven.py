@@ -31,6 +31,7 @@ from rrnn_opt.planning.searches import open_search, runtime_for
 from rrnn_opt.report import write_text
 from rrnn_opt.scene.library import scenario
 from rrnn_opt.study import Case, run, wilson
+from rrnn_opt.validation.ending import ended
 
 Array = NDArray[np.float64]
 SCENARIO = "raven_opening"
@@ -177,4 +178,4 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

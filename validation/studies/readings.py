@@ -5,6 +5,7 @@ python -m rrnn_opt.validation.studies.readings --trials 50 --jobs 2 --out DIR
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
@@ -13,6 +14,7 @@ from rrnn_opt.planning import PaperRnn
 from rrnn_opt.planning.settings.planners import PlannerSettings
 from rrnn_opt.planning.settings.rollout import Feed, Order, Reading, Region
 from rrnn_opt.report.files import write_text
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.studies.searching import run_study, summary
 
 ORDERS: tuple[Order, ...] = ("first", "second")
@@ -38,4 +40,4 @@ def main(argv: Sequence[str] | None = None) -> Path:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ended(main))

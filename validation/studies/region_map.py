@@ -23,6 +23,7 @@ import numpy as np
 from rrnn_opt.report import draw_region, write_text
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.study import Lines
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.verification.region import Region, RegionCell, RegionMap
 from rrnn_opt.verification.region.cell import Law, Tools, certify_cell
 from rrnn_opt.verification.region.certify import (
@@ -114,4 +115,4 @@ def _cell(row: dict[str, Any]) -> RegionCell:
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    sys.exit(ended(main))

@@ -27,6 +27,8 @@ from typing import Any
 
 import flint
 
+from rrnn_opt.validation.ending import ended
+
 Ball = Any  # flint.arb: python-flint has no usable stubs
 
 LARGEST, REACH = 1e5, 0.7855
@@ -183,4 +185,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    sys.exit(ended(main))

@@ -25,6 +25,7 @@ from rrnn_opt.formulations import closed_loop
 from rrnn_opt.networks import DualNetwork
 from rrnn_opt.report import write_text
 from rrnn_opt.simulation import SimulationResult, Task, simulate
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.tables.arm import arm
 from rrnn_opt.validation.tables.cell import markdown
 from rrnn_opt.validation.tables.page import head, spelled
@@ -169,4 +170,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

@@ -19,6 +19,7 @@ from typing import Any
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.planning import Problem, plan
 from rrnn_opt.report import write_text
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.tables import checks
 from rrnn_opt.validation.tables.blocked import blocked, least
 from rrnn_opt.validation.tables.checks import Finding, yes
@@ -193,4 +194,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.report import write_text
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.tables import tracking
 from rrnn_opt.validation.tables.cell import Cell, Verdict, judged
 from rrnn_opt.validation.tables.page import head, spelled
@@ -234,4 +235,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended(main))

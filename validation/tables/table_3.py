@@ -9,6 +9,7 @@ dimensions, so scenes and starts are this project's; see ``scene.library``.
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ import numpy as np
 
 from rrnn_opt.report.files import write_text
 from rrnn_opt.study import wilson
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.tables.cell import Cell, judged, markdown
 from rrnn_opt.validation.tables.collect import collect, surroundings
 from rrnn_opt.validation.tables.printed import printed
@@ -173,4 +175,4 @@ def main(argv: Sequence[str] | None = None) -> Path:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ended(main))

@@ -8,6 +8,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.report.files import write_text
+from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.tables.cell import Cell, judged, markdown
 from rrnn_opt.validation.tables.collect import surroundings
 from rrnn_opt.validation.tables.printed import printed
@@ -180,4 +182,4 @@ def main(argv: Sequence[str] | None = None) -> Path:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ended(main))

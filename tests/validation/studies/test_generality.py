@@ -1,7 +1,10 @@
 """The study of random scenes counts what its rows say, and goes on."""
 
+import os
+
 import pytest
 
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.planning import Problem
 from rrnn_opt.robot import Robot
 from rrnn_opt.validation.studies import generality
@@ -95,3 +98,20 @@ def test_rrt_connect_reaches_a_goal_and_counts_its_checks():
     assert run.solved
     assert run.checks > 10
     assert 0.0 < run.seconds < run.cpu_s
+
+
+@pytest.mark.parametrize("name", ["no-such-commit", "--output=stolen", "a\0b"])
+def test_an_earlier_page_that_is_not_there_is_one_sentence(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    for path in (os.environ["PATH"], str(tmp_path)):  # with git, and without
+        monkeypatch.setenv("PATH", path)
+        with pytest.raises(RrnnError, match="leave --earlier out") as caught:
+            generality.earlier_page(name)
+        assert "\n" not in str(caught.value)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_earlier_page_is_asked_for_before_the_work(tmp_path):
+    with pytest.raises(RrnnError, match="no page of that commit"):
+        generality.main(["--earlier", "none", "--out", str(tmp_path / "out")])
+    assert not (tmp_path / "out").exists()
