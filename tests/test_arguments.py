@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 import pytest
 
 import rrnn_opt as rr
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import ArgumentError, NotFiniteError, RrnnError
 from rrnn_opt.motion import Path
 from rrnn_opt.networks import LviPdnn, PrimalDual
@@ -28,6 +30,37 @@ def test_what_is_no_number_is_named_with_its_argument(value):
 @pytest.mark.parametrize("value", [0.5, 1, np.float32(0.5), np.int64(1)])
 def test_numbers_of_every_kind_are_numbers(value):
     assert LviPdnn(gamma=value).gamma == value
+
+
+@pytest.mark.parametrize("kind", [np.float64, np.float32, np.int8])
+def test_an_array_without_axes_is_its_number_and_kept_as_one(kind):
+    made = LviPdnn(gamma=np.array(2, kind))
+    assert type(made.gamma) is type(np.array(2, kind).item())
+    assert made == LviPdnn(gamma=2.0)
+    assert hash(made) == hash(LviPdnn(gamma=2.0))
+
+
+@pytest.mark.parametrize("value", [np.array("a"), np.array(True), np.array(1j)])
+def test_an_array_without_axes_that_is_no_number_is_refused(value):
+    with pytest.raises(
+        ArgumentError, match="LviPdnn: gamma: expected a number, got an"
+    ):
+        LviPdnn(gamma=value)
+
+
+@checked()
+def total(parts: Iterable[float]) -> float:
+    return sum(parts)
+
+
+def test_what_can_be_read_but_once_is_not_read_before_its_time():
+    assert total(x for x in (1.0, 2.0)) == 3.0
+    assert total({1.0: "a"}.keys()) == 1.0
+    for value in ("12", b"12", {1.0: 2.0}, 3.0, np.array(3.0)):
+        with pytest.raises(ArgumentError, match="total: parts: expected a sequence"):
+            total(value)
+    with pytest.raises(ArgumentError, match=r"total: parts\[1\]: expected a number"):
+        total([1.0, "2"])
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf])
