@@ -1,36 +1,61 @@
-"""Ctrl-C: noticed where a library swallows it, held while a result is written."""
+"""Ctrl-C and other requests to end: noticed always, held while a result is written."""
 
 from __future__ import annotations
 
 import contextlib
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from types import FrameType
+
+ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
+"""Signals that ask a command to end; the last one comes from a closing terminal."""
+Handler = Callable[[int, FrameType | None], None]
 
 
 @dataclass
 class Interrupt:
-    """Whether Ctrl-C was pressed since the command began."""
+    """What asked the command to end since it began.
 
-    seen: bool = False
+    Attributes:
+        number: of the signal; 0 where there was none.
+    """
+
+    number: int = 0
+
+    @property
+    def seen(self) -> bool:
+        """Whether there was one."""
+        return self.number != 0
+
+    @property
+    def status(self) -> int:
+        """Exit status as shells count it: 130 after Ctrl-C, 143 after SIGTERM."""
+        return 128 + (self.number or signal.SIGINT)
+
+    @property
+    def sentence(self) -> str:
+        """What is said of it."""
+        if self.number in (0, signal.SIGINT):
+            return "interrupted"
+        return f"interrupted by {signal.Signals(self.number).name}"
 
 
 @contextlib.contextmanager
 def noticed() -> Iterator[Interrupt]:
-    """Remember Ctrl-C, which raises ``KeyboardInterrupt`` as ever.
+    """Remember Ctrl-C, which raises ``KeyboardInterrupt`` as ever; so do the others.
 
     An import or a callback from C may swallow the exception or turn it into
     another one; the exit status is still that of an interrupted run.
 
     Raises:
-        KeyboardInterrupt: at Ctrl-C.
+        KeyboardInterrupt: at Ctrl-C, SIGTERM or SIGHUP.
     """
     interrupt = Interrupt()
 
     def remember(number: int, frame: FrameType | None) -> None:
-        interrupt.seen = True
+        interrupt.number = interrupt.number or number
         raise KeyboardInterrupt
 
     with _handling(remember):
@@ -39,7 +64,7 @@ def noticed() -> Iterator[Interrupt]:
 
 @contextlib.contextmanager
 def held() -> Iterator[None]:
-    """Let a first Ctrl-C wait until the block is done; a second one does not.
+    """Let a first request to end wait until the block is done; not a second one.
 
     Raises:
         KeyboardInterrupt: at the second Ctrl-C.
@@ -58,15 +83,17 @@ def held() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _handling(handler: object) -> Iterator[None]:
-    """Another handler of Ctrl-C for a while; only the main thread has one."""
-    before = signal.getsignal(signal.SIGINT)
-    main = threading.current_thread() is threading.main_thread()
-    if not main or not callable(before):
+def _handling(handler: Handler) -> Iterator[None]:
+    """Another handler for a while; only the main thread has one.
+
+    What is ignored stays so: ``nohup`` and shells' background jobs ask for it.
+    """
+    with contextlib.ExitStack() as stack:
+        if threading.current_thread() is threading.main_thread():
+            for name in ENDING:
+                number = getattr(signal, name, None)
+                before = number and signal.getsignal(number)
+                if before not in (None, signal.SIG_IGN):
+                    stack.callback(signal.signal, number, before)
+                    signal.signal(number, handler)
         yield
-        return
-    signal.signal(signal.SIGINT, handler)  # type: ignore[arg-type]
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)

@@ -1,8 +1,8 @@
 """``rrnn``: finds the command, runs it, and turns every end into an exit status.
 
 0 all that was asked holds; 1 something asked does not hold; 2 bad input;
-130 interrupted.  Commands are imported here, what they need only when they
-run: ``rrnn --help`` loads no numerical library.
+130 interrupted by Ctrl-C, 143 by SIGTERM.  Commands are imported here, what
+they need only when they run: ``rrnn --help`` loads no numerical library.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ COMMANDS: dict[str, Any] = {
     "robots": robots,
     "doctor": doctor,
 }
-FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
+FAILED, BAD_INPUT = 1, 2
 
 
 class _Help(argparse.HelpFormatter):
@@ -103,17 +103,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     name = next((word for word in words if word in COMMANDS), "")
     with opened("--json" in words) as out, noticed() as interrupt:
         code = _guarded(words, name, out, interrupt)
-        return INTERRUPTED if interrupt.seen else code
+        return interrupt.status if interrupt.seen else code
 
 
 def _guarded(words: list[str], name: str, out: Output, interrupt: Interrupt) -> int:
     try:
         return _run(words, out)
     except KeyboardInterrupt:
-        return _failed(out, name, "interrupted", INTERRUPTED)
+        return _failed(out, name, interrupt.sentence, interrupt.status)
     except Exception as error:
         if interrupt.seen:
-            return _failed(out, name, "interrupted", INTERRUPTED)
+            return _failed(out, name, interrupt.sentence, interrupt.status)
         if "--debug" in words:
             raise
         return _explained(out, name, error)
@@ -159,7 +159,7 @@ def _failed(out: Output, name: str, text: str, code: int) -> int:
     """Say what went wrong; with ``--json`` also as a document."""
     sentence = " ".join(text.split())
     out.note(f"rrnn: {sentence}")
-    kind = {FAILED: "failed", BAD_INPUT: "bad_input", INTERRUPTED: "interrupted"}[code]
+    kind = {FAILED: "failed", BAD_INPUT: "bad_input"}.get(code, "interrupted")
     describe = getattr(COMMANDS.get(name), "failure", None)
     if describe is not None:
         out.document(describe(kind, sentence))

@@ -34,6 +34,8 @@ UNFINISHED = "UNFINISHED.json"
 """There while a package is written over an older one."""
 STALE = 3600.0
 """Age in seconds from which a draft is nobody's any more."""
+PATIENCE = 10.0
+"""Seconds that another process may take to write its package."""
 _PLAIN = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}")
 
 
@@ -73,14 +75,35 @@ def _alone(folder: Path) -> Iterator[None]:
     """Let one process at a time write packages into a folder, where locks are had.
 
     The folder itself is locked, so that no file is left; a dead process holds none.
+
+    Raises:
+        RrnnError: another process has been writing for ``PATIENCE``.
     """
     with contextlib.ExitStack() as stack:
         if fcntl is not None:
             handle = os.open(folder, os.O_RDONLY)
             stack.callback(os.close, handle)
-            with contextlib.suppress(OSError):
-                fcntl.flock(handle, fcntl.LOCK_EX)
+            _wait_for(handle, folder)
         yield
+
+
+def _wait_for(handle: int, folder: Path) -> None:
+    """Take a lock; go on without it on file systems that know none."""
+    end = time.monotonic() + PATIENCE
+    while True:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            if time.monotonic() > end:
+                raise RrnnError(
+                    f"another process writes packages into '{folder}'; end it, or"
+                    " choose another --out"
+                ) from None
+            time.sleep(0.01)
+        except OSError:
+            return
+        else:
+            return
 
 
 def _ours(target: Path) -> set[str]:

@@ -30,6 +30,9 @@ except ImportError:  # pragma: no cover - only POSIX has file locks of this kind
 _MARK = b"\nrrnn_opt sha256 "
 _STALE = 3600.0  # [s]
 _FORGOTTEN = 86400.0  # [s]
+_POLL = 0.02  # [s]
+PATIENCE = 120.0
+"""Seconds that a process waits at most for another one's compilation."""
 PREFIX = "rrnn_opt-"
 """Of folders in the system's temporary folder."""
 
@@ -64,6 +67,8 @@ def private_folder() -> pathlib.Path:
 def valid(path: pathlib.Path) -> bool:
     """Whether an entry is there and its digest matches its bytes."""
     try:
+        if not stat.S_ISREG(path.stat().st_mode):  # a pipe would be waited for
+            return False
         data = path.read_bytes()
     except OSError:
         return False
@@ -95,16 +100,30 @@ def lock(folder: pathlib.Path, key: str) -> Iterator[None]:
     """Let one process at a time build the entries that share this key's start.
 
     The lock only saves work (ten processes compile once); where it cannot be
-    had, each process builds for itself and the last rename wins. The system
-    drops it when its holder dies.
+    had, or its holder has been stopped, each process builds for itself and the
+    last rename wins. The system drops it when its holder dies.
     """
     with contextlib.ExitStack() as stack:
         if fcntl is not None:
             with contextlib.suppress(OSError):
                 (folder / "locks").mkdir(parents=True, exist_ok=True)
-                file = stack.enter_context(open(folder / "locks" / key[:2], "wb"))
-                fcntl.flock(file, fcntl.LOCK_EX)
+                modes = os.O_WRONLY | os.O_CREAT | os.O_NONBLOCK
+                handle = os.open(folder / "locks" / key[:2], modes, 0o666)
+                stack.callback(os.close, handle)
+                _wait_for(handle)
         yield
+
+
+def _wait_for(handle: int) -> None:
+    """Take a file's lock, or go on without it after ``PATIENCE``."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            time.sleep(_POLL)
+        else:
+            return
 
 
 def sweep(folder: pathlib.Path) -> None:

@@ -114,3 +114,30 @@ def test_an_interrupt_while_the_program_loads_leaves_no_traceback(options):
     assert process.returncode == 130
     assert not options or json.loads(shown)["error"]["kind"] == "interrupted"
     assert said == "rrnn: interrupted\n"
+
+
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+def test_other_requests_to_end_are_noticed_too(capfd, monkeypatch, name):
+    number = getattr(signal, name)
+    before = signal.signal(number, signal.SIG_DFL)
+    try:
+        monkeypatch.setattr(
+            COMMANDS["robots"], "run", lambda *_: signal.raise_signal(number)
+        )
+        assert main(["robots", "--json"]) == 128 + number
+        assert signal.getsignal(number) == signal.SIG_DFL
+    finally:
+        signal.signal(number, before)
+    shown, said = capfd.readouterr()
+    assert json.loads(shown)["error"]["kind"] == "interrupted"
+    assert said == f"rrnn: interrupted by {name}\n"
+
+
+def test_what_is_ignored_stays_ignored():
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with noticed() as interrupt, held():
+            signal.raise_signal(signal.SIGHUP)
+    finally:
+        signal.signal(signal.SIGHUP, before)
+    assert not interrupt.seen

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks.faults.deadly import Counter
+from rrnn_opt.embedding import placing
 from rrnn_opt.embedding.package import with_manifest
 from rrnn_opt.embedding.placing import MANIFEST, UNFINISHED
 from rrnn_opt.errors import RrnnError
@@ -90,6 +91,18 @@ def test_writers_side_by_side_leave_one_package(tmp_path):
     assert [ended(child) for child in children] == [0] * 9
     assert tree(tmp_path / "arm") in [dict(p.files) for p in (OLD, NEW, OTHER)]
     assert [p.name for p in tmp_path.iterdir()] == ["arm"]
+
+
+def test_a_writer_that_never_ends_is_not_waited_for(tmp_path, monkeypatch):
+    fcntl = pytest.importorskip("fcntl", reason="needs file locks")
+    monkeypatch.setattr(placing, "PATIENCE", 0.05)
+    handle = os.open(tmp_path, os.O_RDONLY)
+    fcntl.flock(handle, fcntl.LOCK_EX)
+    with pytest.raises(RrnnError, match="another process writes"):
+        NEW.write(tmp_path)
+    assert list(tmp_path.iterdir()) == []
+    os.close(handle)
+    assert tree(NEW.write(tmp_path)) == dict(NEW.files)
 
 
 @pytest.mark.parametrize("blocked", ["a.h", "s"])

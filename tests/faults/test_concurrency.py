@@ -69,6 +69,45 @@ def test_ten_processes_compile_once(tmp_path, monkeypatch, state):
     assert [cache.valid(p) for p in folder.glob("*.so")] == [True]
 
 
+ODD = {
+    "a folder": lambda path: path.mkdir(),
+    "a full folder": lambda path: (path / "x").mkdir(parents=True),
+    "a pipe": os.mkfifo,
+    "a device": lambda path: path.symlink_to("/dev/zero"),
+    "a link to itself": lambda path: path.symlink_to(path),
+    "a link to nothing": lambda path: path.symlink_to("nothing"),
+    "nothing": lambda path: path.write_bytes(b""),
+}
+
+
+@pytest.mark.parametrize("kind", ODD)
+@pytest.mark.parametrize("where", ["entry", "lock"])
+def test_what_is_no_entry_is_neither_waited_for_nor_loaded(
+    tmp_path, monkeypatch, kind, where
+):
+    cache.private_folder.cache_clear()
+    monkeypatch.setenv("RRNN_CACHE_DIR", str(tmp_path))
+    path = build(SOURCE, name="answer").path
+    (lock,) = (tmp_path / "locks").iterdir()
+    path.unlink()
+    odd = path if where == "entry" else lock
+    lock.unlink()
+    ODD[kind](odd)
+    built = build(SOURCE, name="answer")
+    assert not built.cached
+    assert load(built).the_answer() == 42
+    cache.private_folder.cache_clear()
+
+
+def test_a_stopped_builder_is_not_waited_for(tmp_path, monkeypatch):
+    monkeypatch.setenv("RRNN_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(cache, "PATIENCE", 0.1)
+    build(SOURCE, name="answer").path.unlink()
+    (lock,) = (tmp_path / "locks").iterdir()
+    with cache.lock(tmp_path, lock.name):
+        assert load(build(SOURCE, name="answer")).the_answer() == 42
+
+
 @pytest.mark.slow
 def test_every_bit_counts(tmp_path, monkeypatch):
     """A sample of all bits of an entry, its digest among them: none is loaded."""
