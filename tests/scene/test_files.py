@@ -7,18 +7,14 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from rrnn_opt.check.plans.solids.distance import (
-    gap,
-    normals,
-    read_obstacle,
-    signed_distance,
-)
+from rrnn_opt.check.plans.solids.obstacle import read_obstacle
 from rrnn_opt.errors import DocumentError, ProblemError
 from rrnn_opt.scene import Box, HalfSpace, Mesh, Points, Scene
 from rrnn_opt.scene.broad import WIDTH, broad_phase
 from rrnn_opt.scene.mesh_file import read_vertices
 from rrnn_opt.scene.reading import scene_from_list
 from rrnn_opt.scene.records import SOLIDS
+from tests.check.plans.one_solid import OneSolid
 
 TURN = [0.18257418583505536, 0.3651483716701107, 0.5477225575051661, 0.7302967433402214]
 
@@ -112,18 +108,18 @@ def rng_points():
 
 
 def test_the_checker_finds_the_true_distance_on_its_own(mesh, rng_points):
-    solid = read_obstacle(mesh.to_dict(), "rock")
-    true, found = coal_distance(mesh, rng_points), signed_distance(solid, rng_points)
+    solid = OneSolid(mesh.to_dict())
+    true, found = coal_distance(mesh, rng_points), solid.distance(rng_points)
     outside = true > 1e-6
     np.testing.assert_allclose(found[outside], true[outside], atol=1e-6)
     assert np.all(found[true < -1e-6] < 0.0)
-    n = normals(solid, rng_points)
+    n = solid.normals(rng_points)
     np.testing.assert_allclose(np.linalg.norm(n, axis=1), 1.0, atol=1e-12)
-    bound = gap(solid, rng_points, n)
+    bound = solid.gap(rng_points, n)
     np.testing.assert_allclose(bound[outside], found[outside], atol=1e-9)
     tilted = n + 0.3
     tilted /= np.linalg.norm(tilted, axis=1)[:, None]
-    assert np.all(gap(solid, rng_points, tilted) <= found + 1e-12)
+    assert np.all(solid.gap(rng_points, tilted) <= found + 1e-12)
 
 
 def test_a_changed_file_is_noticed(mesh):
@@ -157,9 +153,9 @@ def test_clouds_are_read_and_measured(tmp_path, suffix, rng_points):
         np.savetxt(path, points, delimiter=",", header=header, comments="", fmt="%.17g")
     cloud = Points("cloud", str(path), 0.01)
     np.testing.assert_array_equal(cloud.centers, points)
-    solid = read_obstacle(cloud.to_dict(), "cloud")
+    solid = OneSolid(cloud.to_dict())
     want = cKDTree(points).query(rng_points)[0] - 0.01
-    np.testing.assert_allclose(signed_distance(solid, rng_points), want, atol=1e-12)
+    np.testing.assert_allclose(solid.distance(rng_points), want, atol=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from rrnn_opt.check.plans.collision.scene import Scene, build_scene
 from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.reading import Array, get
 from rrnn_opt.check.plans.robot.model import Model
-from rrnn_opt.check.plans.solids.distance import read_obstacle
+from rrnn_opt.check.plans.solids.obstacle import read_obstacle
 from rrnn_opt.errors import DocumentError
 
 

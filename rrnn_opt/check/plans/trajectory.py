@@ -13,14 +13,9 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.check.plans import hermite, reading
+from rrnn_opt.check.plans.collision.look import Effort
 from rrnn_opt.check.plans.collision.parts import Parts
-from rrnn_opt.check.plans.collision.proof import (
-    PROVED,
-    UNKNOWN,
-    Effort,
-    Outcome,
-    prove_free,
-)
+from rrnn_opt.check.plans.collision.proof import PROVED, UNKNOWN, Outcome, prove_free
 from rrnn_opt.check.plans.collision.scene import Scene
 from rrnn_opt.check.plans.goal import GoalError, nearest_goal
 from rrnn_opt.check.plans.inputs import read_motion, read_scene
@@ -130,7 +125,7 @@ class Judge:
             limits, broken = prove_limits(model, motion, exact=exact)
             goal = read_goal(model, wish, motion)
             effort = Effort(max_boxes, keep_leaves=exact)
-            found = prove_free(scene.model, scene.targets, scene.errors, motion, effort)
+            found = prove_free(scene, motion, effort)
             faults = _faults(model, wish, motion, trajectory.get("duration"), qdd)
         if exact:
             found = _exactly(self.document, wish, scene, motion, found)

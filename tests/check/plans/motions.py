@@ -32,6 +32,8 @@ def judge(robot, obstacles, trajectory, **more):
 
 
 def centres_at(robot, trajectory, times):
+    """Sphere centres at each time, (N, ns, 3)."""
     model = read_model(robot)
-    q = model.joint_values(trajectory.at(times)[0])
-    return kinematics.sphere_centres(model, kinematics.forward(model, q))
+    joints = model.joint_values(trajectory.at(times)[0]).T
+    found = kinematics.sphere_centres(model, kinematics.forward(model, joints))
+    return np.moveaxis(found, (0, 1, 2), (2, 1, 0))

@@ -31,7 +31,7 @@ def random_scene(rng, n):
 
 
 def coal_obstacles(model, obstacles):
-    from rrnn_opt.check.plans.solids.distance import read_obstacle
+    from rrnn_opt.check.plans.solids.obstacle import read_obstacle
 
     shapes = []
     for entry in obstacles:

@@ -65,8 +65,8 @@ def test_planted_a_shift_of_two_centimetres(planar):
 def test_a_witness_is_a_true_collision_by_coal(planar):
     wall = box((2.0, 0.1, 0.0), (0.6, 0.002, 0.3))
     found = judge(planar, [wall], swing(planar, [-1.0, 0.0], [1.3, 0.0]))
-    model, q = read_model(planar), np.array([found.witness["q"]])
-    spheres = kinematics.sphere_centres(model, kinematics.forward(model, q))[0]
+    model, q = read_model(planar), np.array(found.witness["q"])[:, None]
+    spheres = kinematics.sphere_centres(model, kinematics.forward(model, q))[..., 0].T
     i = model.links.index(found.witness["pair"][0])
     place = coal.Transform3s(np.eye(3), np.array(wall["position"]))
     hit = coal.collide(

@@ -53,18 +53,18 @@ class Boxes:
 
 @dataclass(frozen=True, eq=False)
 class Poses:
-    """The robot at the middle of B boxes.
+    """The robot at the middle of B boxes, which come last in every array.
 
     Attributes:
         model: the robot.
-        joints: joint values, (B, nj).
-        origins: joint origins, (B, nj, 3), m.
-        axes: joint axes, (B, nj, 3).
-        screws: rows (a, -a x o) of turns and (0, a) of slides, (B, nj, 6): with
+        joints: joint values, (nj, B).
+        origins: joint origins, (nj, 3, B), m.
+        axes: joint axes, (nj, 3, B).
+        screws: columns (a, -a x o) of turns and (0, a) of slides, (6, nj, B): with
             (p x n, n) they give n'J of a point p.
-        centres: sphere centres, (B, ns, 3), m.
-        terms: v tau, a tau^2 / 2, j tau^3 / 6, (B, nj, 3).
-        sway: bound h of the joint moves, rounding included, (B, nj).
+        centres: sphere centres, (3, ns, B), m.
+        terms: v tau, a tau^2 / 2, j tau^3 / 6, (3, nj, B).
+        sway: bound h of the joint moves, rounding included, (nj, B).
     """
 
     model: Model
@@ -77,27 +77,28 @@ class Poses:
     sway: Array
 
     def points(self, box: Index, sphere: Index) -> Array:
-        """Centres of spheres in boxes, (M, 3), m."""
-        rows = self.centres.reshape(-1, 3)
-        points: Array = rows.take(box * self.centres.shape[1] + sphere, axis=0)
-        return points
+        """Centres of spheres in boxes, (3, M), m."""
+        columns = self.centres.reshape(3, -1)
+        found: Array = columns.take(sphere * self.centres.shape[2] + box, axis=1)
+        return found
 
 
 def joint_pieces(model: Model, pieces: Pieces) -> Pieces:
-    """Cubics of the coordinates turned into cubics of the joint values."""
-    scaled = [c[:, model.source] * model.multiplier for c in pieces[1:]]
-    scaled[0] = scaled[0] + model.offset
+    """Cubics of the coordinates turned into cubics of the joint values, (nj, n - 1)."""
+    scale = model.multiplier[:, None]
+    scaled = [c.T[model.source] * scale for c in pieces[1:]]
+    scaled[0] += model.offset[:, None]
     return Pieces(pieces.h, *scaled)
 
 
 def poses(model: Model, joint: Pieces, boxes: Boxes, errors: Rounding) -> Poses:
     """Forward kinematics at the middle of every box, and the joints' moves."""
-    local = Pieces(joint.h, *(c[boxes.piece] for c in joint[1:]))
-    s, tau = boxes.middle[:, None], boxes.half[:, None]
+    local = Pieces(joint.h, *(c.take(boxes.piece, axis=1) for c in joint[1:]))
+    s, tau = boxes.middle, boxes.half
     values = hermite.position(local, s)
     rate = hermite.velocity(local, s)
     bend = local.c2 + 3 * s * local.c3
-    terms = np.stack([rate * tau, bend * tau**2, local.c3 * tau**3], axis=2)
+    terms = np.stack([rate * tau, bend * tau**2, local.c3 * tau**3])
     frames = kinematics.forward(model, values)
     return Poses(
         model=model,
@@ -107,17 +108,17 @@ def poses(model: Model, joint: Pieces, boxes: Boxes, errors: Rounding) -> Poses:
         screws=_screws(model, frames),
         centres=kinematics.sphere_centres(model, frames),
         terms=terms,
-        sway=np.abs(terms).sum(axis=2) + errors.values,
+        sway=np.abs(terms).sum(axis=0) + errors.values[:, None],
     )
 
 
 def _screws(model: Model, frames: kinematics.Frames) -> Array:
-    a, o = np.moveaxis(frames.axes, 2, 0), np.moveaxis(frames.origins, 2, 0)
-    rows = np.empty((*frames.axes.shape[:2], 6))
-    rows[..., :3] = frames.axes
-    rows[..., 3] = a[2] * o[1] - a[1] * o[2]
-    rows[..., 4] = a[0] * o[2] - a[2] * o[0]
-    rows[..., 5] = a[1] * o[0] - a[0] * o[1]
-    rows[:, model.prismatic, :3] = 0.0
-    rows[:, model.prismatic, 3:] = frames.axes[:, model.prismatic]
+    a, o = frames.axes.swapaxes(0, 1), frames.origins.swapaxes(0, 1)
+    rows = np.empty((6, *a.shape[1:]))
+    rows[:3] = a
+    rows[3] = a[2] * o[1] - a[1] * o[2]
+    rows[4] = a[0] * o[2] - a[2] * o[0]
+    rows[5] = a[1] * o[0] - a[0] * o[1]
+    rows[:3, model.prismatic] = 0.0
+    rows[3:, model.prismatic] = a[:, model.prismatic]
     return rows

@@ -42,6 +42,11 @@ class Selection:
     moved: tuple[NDArray[np.bool_], ...]
     finer: Grouping | None = None
 
+    @property
+    def sides(self) -> list[tuple[Index, NDArray[np.bool_]]]:
+        """Column by column: spheres, (n,), and the joints that count, (n, nj)."""
+        return list(zip(self.spheres.T, self.moved, strict=True))
+
 
 @dataclass(frozen=True, eq=False)
 class Parts:

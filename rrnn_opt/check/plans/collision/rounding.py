@@ -28,26 +28,33 @@ A as in :func:`hermite.unit_size`; the terms sum to at most
 H_k = |multiplier_k| A.  Moves h_k are enlarged by V_k where they are made.
 
 Frames.  Placements are within 24 u of a rotation, axes within 4 u of unit
-length (:mod:`model`), so the three matrices of :func:`kinematics.turn_forms`
+length (:mod:`model`), so the three matrices of :attr:`Model.turn_forms`
 are within 40, 66 and 48 u; with sine and cosine, each off by V_k + 8 u, and
 three roundings, a joint's frame in its parent's is off (Frobenius norm) by
 
     lambda_k = 3 V_k + 192 u                         (a slide: 24 u),
     turn_k   = turn_p (1 + lambda_k) + lambda_k + 12 u,
     axis_k   = turn_p + 48 u,
-    origin_k = origin_p + (turn_p + 6 u) |t_k| + u chain_k
+    origin_k = origin_p + (turn_p + 8 u) |t_k| + u chain_k
                [a slide: + V_k + E_k (axis_k + 3 u)],
     centre_i = origin_k + (turn_k + 6 u) |c_i| + u chain_i,
 
 p the parent, E_k the largest |value| of a slide, chain the largest distance
 from the base along the chain.
 
-Distances are 1-Lipschitz, so a centre's error carries over as it is.  Local
-coordinates in a solid (rotation from a quaternion: 48 u; difference 1 u,
-product 6 u), norms, normals (length within 64 u of one) and supports pass
-through so few roundings that signed distance, and gap along a computed normal
-whatever its length, are off by at most 256 u far, far = largest distance of a
-centre from the solid's centre + its size + radius + required.
+(8 u and not 6 u, as the step from the parent, a slide's extension included, is
+summed first: no term of it passes through more than four roundings).
+
+Distances are 1-Lipschitz, so a centre's error carries over as it is.  far =
+largest distance of a centre from the solid's centre + its size + radius +
+required.  Local coordinates in a solid (rotation R from a quaternion: 48 u;
+difference 1 u, product 6 u) are off by 55 u far; a norm, or a product with a
+normal and its support, adds 16 u far.  A normal is found in the solid's own axes
+and turned into the world's, n = R n', which is taken as the exact direction of
+the half-space: by R (48 u) and the product (6 u), n' is within 54 u of n in
+those axes, so the gap along n differs by 54 u far from the one along n'.  n' is
+within 64 u of unit length, n within 118 u: another 118 u far.  Together 243 u:
+signed distance, and gap along a computed normal, are off by at most 256 u far.
 
 First order.  A row entry ``n.(a x p) - n.(a x o)`` is, a and p and o within
 their errors, off by
@@ -139,7 +146,7 @@ def _frames(
         turn[k] = turn[p] * (1 + own) + own + 12 * U
         axes[k] = turn[p] + 48 * U
         chain[k] = chain[p] + links[k] + slide
-        origins[k] = origins[p] + (turn[p] + 6 * U) * links[k] + U * chain[k]
+        origins[k] = origins[p] + (turn[p] + 8 * U) * links[k] + U * chain[k]
         if model.prismatic[k]:
             origins[k] += values[k] + slide * (axes[k] + 3 * U)
     if not np.all(turn <= WORST_TURN):
@@ -147,28 +154,27 @@ def _frames(
     return turn[:-1], axes[:-1], GROW * origins[:-1], chain[:-1]
 
 
-def slack(errors: Rounding, spheres: NDArray[np.int64], levers: Array) -> float:
-    """Largest rounding error of bounds of moving spheres, but for the solid's part.
+def slack(errors: Rounding, spheres: NDArray[np.int64], levers: Array) -> Array:
+    """Rounding errors of bounds of moving spheres, but for the solid's part.
 
     Args:
         errors: of the robot and motion.
         spheres: their indices, (m,).
-        levers: of their joints, zero where one does not count, (m, nj), m.
+        levers: of their joints, zero where one does not count, (nj, m), m.
 
     Returns:
-        m; infinite when there is no finite bound.
+        (m,), m; infinite where there is no finite bound.
     """
-    if not len(spheres):
-        return 0.0
-    chains, centres = errors.chains[spheres, None], errors.centres[spheres, None]
-    rows = errors.axes * 2 * chains + centres + errors.origins + 32 * U * chains
-    rows = (rows + gamma(levers.shape[1] + 8) * levers) * (levers > 0)
-    first = rows @ errors.sways + levers @ errors.values
-    moves = levers @ errors.sways * (2 + 2 * float(errors.sways.sum()))
-    worst = float(np.max(centres[:, 0] + first + 4 * U * moves)) * GROW + TINY
-    return worst if np.isfinite(worst) else np.inf
+    chains, centres = errors.chains[spheres], errors.centres[spheres]
+    rows = (2 * errors.axes)[:, None] * chains + errors.origins[:, None]
+    rows += centres + 32 * U * chains
+    rows = (rows + gamma(len(levers) + 8) * levers) * (levers > 0)
+    first = errors.sways @ rows + errors.values @ levers
+    moves = errors.sways @ levers * (2 + 2 * float(errors.sways.sum()))
+    worst = (centres + first + 4 * U * moves) * GROW + TINY
+    return np.where(np.isfinite(worst), worst, np.inf)
 
 
-def solid_slack(far: float) -> float:
+def solid_slack(far: Array | float) -> Array:
     """The solid's part, for the largest distance and sizes that occur, m."""
-    return (SOLID + 4 * U) * GROW * far
+    return np.asarray((SOLID + 4 * U) * GROW * far)

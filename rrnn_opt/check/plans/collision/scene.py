@@ -9,25 +9,24 @@ import numpy as np
 
 from rrnn_opt.check.arithmetic.doubles import GROW
 from rrnn_opt.check.plans import hermite
+from rrnn_opt.check.plans.collision.against import ObstacleTarget
 from rrnn_opt.check.plans.collision.boxes import joint_pieces
-from rrnn_opt.check.plans.collision.movers import Movers
+from rrnn_opt.check.plans.collision.itself import SelfTarget
+from rrnn_opt.check.plans.collision.movers import Movers, make_movers
 from rrnn_opt.check.plans.collision.parts import Parts, Selection
 from rrnn_opt.check.plans.collision.rounding import (
     Rounding,
     rounding,
     solid_slack,
 )
-from rrnn_opt.check.plans.collision.targets import (
-    Finer,
-    ObstacleTarget,
-    SelfTarget,
-    Target,
-)
+from rrnn_opt.check.plans.collision.targets import Finer, Target
+from rrnn_opt.check.plans.hermite import Pieces
 from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.reading import Array
 from rrnn_opt.check.plans.robot.model import Model
 from rrnn_opt.check.plans.robot.motion_bound import reach_table
-from rrnn_opt.check.plans.solids.distance import Obstacle
+from rrnn_opt.check.plans.solids.distance import Solids
+from rrnn_opt.check.plans.solids.obstacle import Obstacle
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,11 +35,13 @@ class Scene:
 
     Attributes:
         model: the robot, its bodies' balls among the spheres.
+        joint: the motion as cubics of joint values, over each piece's own time.
         targets: what must keep apart, coarse ones.
         errors: rounding of the robot's own numbers.
     """
 
     model: Model
+    joint: Pieces
     targets: list[Target]
     errors: Rounding
 
@@ -51,7 +52,7 @@ class Scene:
         for target in self.targets:
             level: Target | None = target
             while level is not None:
-                every.append(level.slack)
+                every.append(float(level.slack.max()))
                 level = None if level.finer is None else level.finer.target
         return max(every)
 
@@ -63,77 +64,88 @@ def build_scene(
 
     Args:
         parts: of the robot.
-        obstacles: convex solids.
+        obstacles: convex solids, and clouds.
         margin: least distance to an obstacle, m.
         motion: the rows.
     """
     model = parts.bodies.model
+    joint = joint_pieces(model, motion.unit)
     errors = rounding(model, motion.t, motion.q, motion.qd)
-    reach = reach_table(model, *_extents(model, motion, errors))
-    make = _Maker(model, reach, errors)
-    targets = [*make.against(parts, obstacles, margin), make.itself(parts)]
-    return Scene(model, targets, errors)
+    reach = reach_table(model, *_extents(joint, errors))
+    levels = (*parts.singles, *parts.pairs)
+    groups = [side for level in levels for side in level.sides]
+    movers = make_movers(model, groups, reach, errors)
+    chains = float((errors.chains + model.radii).max(initial=0.0))
+    singles = len(parts.singles)
+    targets = [
+        _against(model, parts, movers[:singles], members, solids, margin, chains)
+        for members, solids in _alike(obstacles)
+    ]
+    itself = _itself(model, parts, movers[singles:], chains)
+    return Scene(model, joint, [*targets, itself], errors)
 
 
-def _extents(model: Model, motion: Motion, errors: Rounding) -> tuple[Array, Array]:
+def _extents(p: Pieces, errors: Rounding) -> tuple[Array, Array]:
     """Least and greatest joint values that can occur, (nj,) each.
 
     A cubic lies between the least and greatest of its Bezier points
     q0, q0 + v0 / 3, q1 - v1 / 3, q1.
     """
-    p = joint_pieces(model, motion.unit)
     last = p.c1 + 2 * p.c2 + 3 * p.c3
     end = hermite.position(p, np.array(1.0))
     points = np.stack([p.c0, p.c0 + p.c1 / 3, end - last / 3, end])
     room = 8 * errors.values
-    return points.min(axis=(0, 1)) - room, points.max(axis=(0, 1)) + room
+    return points.min(axis=(0, 2)) - room, points.max(axis=(0, 2)) + room
 
 
-@dataclass(frozen=True, eq=False)
-class _Maker:
-    """Makes the targets of one motion: coarse ones that know their finer ones."""
-
-    model: Model
-    reach: Array
-    errors: Rounding
-
-    def against(
-        self, parts: Parts, obstacles: Sequence[Obstacle], margin: float
-    ) -> list[Target]:
-        """Spheres against obstacles, body by body first."""
-        model, sides = self.model, [self._movers(s)[0] for s in parts.singles]
-        far = float((self.errors.chains + model.radii).max(initial=0.0)) + margin
-        targets: list[Target] = []
-        for obstacle in obstacles:
-            solid = solid_slack(far + obstacle.size)
-            target: ObstacleTarget | None = None
-            for chosen, movers in zip(parts.singles, sides, strict=True):
-                finer, room = _finer(target, chosen), movers.room + solid
-                target = ObstacleTarget(model, obstacle, movers, margin, room, finer)
-            targets += [] if target is None else [target]
-        return targets
-
-    def _movers(self, chosen: Selection) -> tuple[Movers, ...]:
-        sides = zip(chosen.spheres.T, chosen.moved, strict=True)
-        return tuple(
-            Movers.of(self.model, spheres, moved, self.reach, self.errors)
-            for spheres, moved in sides
-        )
-
-    def itself(self, parts: Parts) -> Target:
-        """Self pairs: bodies, then cells, then spheres."""
-        far = 2 * float((self.errors.chains + self.model.radii).max(initial=0.0))
-        target: SelfTarget | None = None
-        for chosen in parts.pairs:
-            first, second = self._movers(chosen)
-            room = (first.room + second.room) * GROW + solid_slack(far)
-            finer = _finer(target, chosen)
-            target = SelfTarget(self.model, (first, second), room, finer)
-        assert target is not None  # there is a level at least
-        return target
+def _alike(obstacles: Sequence[Obstacle]) -> list[tuple[tuple[int, ...], Solids]]:
+    """Obstacles kind by kind, with their places; a mesh or a cloud stands alone."""
+    groups: dict[tuple[str, int], list[int]] = {}
+    for k, obstacle in enumerate(obstacles):
+        alone = -1 if obstacle.matter is None else k
+        groups.setdefault((obstacle.kind, alone), []).append(k)
+    return [
+        (tuple(places), Solids.of([obstacles[k] for k in places]))
+        for places in groups.values()
+    ]
 
 
-def _finer(target: Target | None, chosen: Selection) -> Finer | None:
+def _against(
+    model: Model,
+    parts: Parts,
+    movers: Sequence[Movers],
+    members: tuple[int, ...],
+    solids: Solids,
+    margin: float,
+    chains: float,
+) -> Target:
+    """Spheres against obstacles of one kind, body by body first."""
+    room = solid_slack(chains + margin + solids.sizes)
+    target: ObstacleTarget | None = None
+    for chosen, side in zip(parts.singles, movers, strict=True):
+        finer = _finer(target, chosen, len(members))
+        slack = side.room + room
+        target = ObstacleTarget(model, solids, members, side, margin, slack, finer)
+    assert target is not None  # there is a level at least
+    return target
+
+
+def _itself(
+    model: Model, parts: Parts, movers: Sequence[Movers], chains: float
+) -> Target:
+    """Self pairs: bodies, then cells, then spheres."""
+    target: SelfTarget | None = None
+    for k, chosen in enumerate(parts.pairs):
+        first, second = movers[2 * k : 2 * k + 2]
+        room = (first.room + second.room) * GROW + solid_slack(2 * chains)
+        finer = _finer(target, chosen, 1)
+        target = SelfTarget(model, (first, second), room.reshape(1), finer)
+    assert target is not None  # there is a level at least
+    return target
+
+
+def _finer(target: Target | None, chosen: Selection, solids: int) -> Finer | None:
     if target is None or chosen.finer is None:
         return None
-    return Finer(target, *chosen.finer)
+    width = len(chosen.spheres)
+    return Finer(target, *chosen.finer, width, target.count // solids)

@@ -1,4 +1,4 @@
-"""What must stay apart: spheres from an obstacle, spheres from one another.
+"""What must stay apart: spheres from obstacles, spheres from one another.
 
 Each target numbers its pairs 0, 1, .. and answers, for rows (box, pair):
 the distance at the box's middle, a cheap bound over the box (distance minus
@@ -16,21 +16,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from rrnn_opt.check.plans.collision.boxes import Index, Poses
-from rrnn_opt.check.plans.collision.movers import Movers, first_order, way
 from rrnn_opt.check.plans.reading import Array
-from rrnn_opt.check.plans.robot.model import Model
-from rrnn_opt.check.plans.solids.distance import (
-    TINY,
-    Obstacle,
-    gap,
-    normals,
-    signed_distance,
-)
+
+
+class FirstLook(NamedTuple):
+    """All pairs in all boxes, solid by solid: pair = solid times S plus own.
+
+    Attributes:
+        d: distance at the middle, (O, S, B), m.
+        shown: cheap bound over the box, (O, S, B), m.
+    """
+
+    d: Array
+    shown: Array
 
 
 class Target(Protocol):
@@ -41,16 +44,29 @@ class Target(Protocol):
         """Least distance, m."""
 
     @property
-    def slack(self) -> float:
-        """No bound or distance given here is off by more, m."""
+    def slack(self) -> Array:
+        """No bound or distance given here is off by more, one a solid, (O,), m."""
 
     @property
     def count(self) -> int:
         """Number of pairs."""
 
     @property
+    def spheres(self) -> tuple[Index, ...]:
+        """The spheres of each pair: one, or two of a self pair, (count,) each."""
+
+    @property
     def finer(self) -> Finer | None:
         """Where the pairs are taken apart; None if they are single spheres."""
+
+    def solid(self, pair: Index) -> Index:
+        """Which of the solids a pair is with, (M,)."""
+
+    def room(self, pair: Index) -> Array:
+        """The slack of each pair, (M,), or of all, (1,), m."""
+
+    def first(self, poses: Poses) -> FirstLook:
+        """All pairs in all boxes."""
 
     def travel(self, poses: Poses, box: Index, pair: Index) -> Array:
         """How far the pair can approach inside the box, (M,), m."""
@@ -70,155 +86,33 @@ class Target(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Finer:
-    """The pairs that those of a coarse target stand for.
+    """The pairs that those of a coarse target stand for, the same for each solid.
 
     Attributes:
-        target: of single spheres.
-        pairs: its pairs, in the order of the coarse ones, (sum of sizes,).
-        sizes: how many each coarse pair has, (count,).
+        target: of single spheres, or of smaller balls.
+        pairs: its pairs with the first solid, in the order of the coarse ones.
+        sizes: how many each coarse pair with that solid has.
+        width: coarse pairs of one solid.
+        finer_width: finer pairs of one solid.
     """
 
     target: Target
     pairs: Index
     sizes: Index
+    width: int
+    finer_width: int
 
     @cached_property
     def first(self) -> Index:
-        """Where each coarse pair's own begin, (count,)."""
+        """Where each coarse pair's own begin, (width,)."""
         return np.cumsum(self.sizes) - self.sizes
 
     def rows(self, box: Index, pair: Index) -> tuple[Index, Index]:
         """Rows (box, pair) of the finer target for rows of the coarse one."""
-        sizes = self.sizes[pair]
+        solid, own = np.divmod(pair, self.width)
+        sizes = self.sizes[own]
         ends = np.cumsum(sizes)
-        inner = np.arange(int(sizes.sum())) - np.repeat(ends - sizes, sizes)
-        return (
-            np.repeat(box, sizes),
-            self.pairs[np.repeat(self.first[pair], sizes) + inner],
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class ObstacleTarget:
-    """Spheres that can move, against one obstacle.
-
-    Attributes:
-        model: the robot.
-        obstacle: the solid.
-        movers: the spheres, one a pair.
-        required: the margin, m.
-        slack: m.
-        finer: see :class:`Target`.
-    """
-
-    model: Model
-    obstacle: Obstacle
-    movers: Movers
-    required: float
-    slack: float
-    finer: Finer | None = None
-
-    @property
-    def count(self) -> int:
-        """Number of spheres."""
-        return len(self.movers.spheres)
-
-    def travel(self, poses: Poses, box: Index, pair: Index) -> Array:
-        """See :class:`Target`."""
-        return way(poses, self.movers.levers, box, pair)
-
-    def distance(self, poses: Poses, box: Index, pair: Index) -> Array:
-        """See :class:`Target`."""
-        sphere = self.movers.spheres[pair]
-        d = signed_distance(self.obstacle, poses.points(box, sphere))
-        return d - self.model.radii[sphere]
-
-    def floor(self, poses: Poses, box: Index, pair: Index, d: Array) -> Array:
-        """See :class:`Target`; triangles of a mesh refute, its points prove."""
-        if self.obstacle.kind != "mesh":
-            return d
-        sphere = self.movers.spheres[pair]
-        points = poses.points(box, sphere)
-        free = gap(self.obstacle, points, normals(self.obstacle, points))
-        return np.minimum(d, free - self.model.radii[sphere])
-
-    def sharp(self, poses: Poses, box: Index, pair: Index) -> Array:
-        """See :class:`Target`."""
-        sphere = self.movers.spheres[pair]
-        points = poses.points(box, sphere)
-        n = normals(self.obstacle, points)
-        row, rest = self.movers.bend(poses, box, pair, points, n)
-        free = gap(self.obstacle, points, n) - self.model.radii[sphere]
-        bound: Array = free - first_order(poses, box, row) - rest / 2
-        return bound
-
-    def label(self, pair: int) -> list[str]:
-        """See :class:`Target`."""
-        return [self.model.links[self.movers.spheres[pair]], self.obstacle.name]
-
-
-@dataclass(frozen=True, eq=False)
-class SelfTarget:
-    """Spheres of the robot against one another.
-
-    Motion is taken relative to the last joint that moves both, so only the
-    joints that move exactly one of the two count.
-
-    Attributes:
-        model: the robot.
-        sides: first and second spheres of the pairs.
-        slack: m.
-        finer: see :class:`Target`.
-        required: m.
-    """
-
-    model: Model
-    sides: tuple[Movers, Movers]
-    slack: float
-    finer: Finer | None = None
-    required: float = 0.0
-
-    @property
-    def count(self) -> int:
-        """Number of pairs."""
-        return len(self.sides[0].spheres)
-
-    @cached_property
-    def _levers(self) -> Array:
-        return self.sides[0].levers + self.sides[1].levers
-
-    def travel(self, poses: Poses, box: Index, pair: Index) -> Array:
-        """See :class:`Target`."""
-        return way(poses, self._levers, box, pair)
-
-    def distance(self, poses: Poses, box: Index, pair: Index) -> Array:
-        """See :class:`Target`."""
-        i, j = (side.spheres[pair] for side in self.sides)
-        apart = poses.points(box, i) - poses.points(box, j)
-        far: Array = np.sqrt(np.einsum("ij,ij->i", apart, apart))
-        return far - (self.model.radii[i] + self.model.radii[j])
-
-    def floor(self, poses: Poses, box: Index, pair: Index, d: Array) -> Array:
-        """See :class:`Target`."""
-        return d
-
-    def sharp(self, poses: Poses, box: Index, pair: Index) -> Array:
-        """See :class:`Target`."""
-        first, second = self.sides
-        i, j = first.spheres[pair], second.spheres[pair]
-        at_i, at_j = poses.points(box, i), poses.points(box, j)
-        apart = at_i - at_j
-        far = np.sqrt(np.einsum("ij,ij->i", apart, apart))[:, None]
-        usual = far > TINY
-        n = np.where(usual, apart / np.where(usual, far, 1.0), (1.0, 0.0, 0.0))
-        free = np.einsum("ij,ij->i", n, apart)
-        free -= self.model.radii[i] + self.model.radii[j]
-        row_i, rest_i = first.bend(poses, box, pair, at_i, n)
-        row_j, rest_j = second.bend(poses, box, pair, at_j, n)
-        bend = first_order(poses, box, row_i - row_j)
-        bound: Array = free - bend - (rest_i + rest_j) / 2
-        return bound
-
-    def label(self, pair: int) -> list[str]:
-        """See :class:`Target`."""
-        return [self.model.links[side.spheres[pair]] for side in self.sides]
+        begin = self.first[own] - (ends - sizes)
+        inner = np.arange(int(sizes.sum())) + np.repeat(begin, sizes)
+        shift = np.repeat(solid * self.finer_width, sizes)
+        return np.repeat(box, sizes), self.pairs[inner] + shift

@@ -12,10 +12,7 @@ from rrnn_opt.check.plans.collision.targets import Target
 from rrnn_opt.check.plans.reading import Array
 
 ROWS = 200_000
-"""Rows (box, pair) of one target at a time: bounds memory, decides nothing."""
-
-ALL_ROWS = 4_000_000
-"""Rows of all targets begun with at a time; a row waiting takes 32 bytes."""
+"""Rows (box, pair) at a time: bounds memory, decides nothing."""
 
 
 class Leaf(NamedTuple):
@@ -90,44 +87,42 @@ class Work:
         pair, shown = np.repeat(self.pair[mine], 2), np.repeat(self.shown[mine], 2)
         return Work(self.target, box, pair, shown)
 
-    def taken_apart(self, chosen: Any) -> Work:
-        """The finer target's rows of the chosen ones."""
-        finer, box, pair = self.target.finer, self.box[chosen], self.pair[chosen]
-        if finer is None or not len(box):
-            return Work(self.target, box, pair, self.shown[chosen])
-        box, pair = finer.rows(box, pair)
+    def taken_apart(self) -> Work:
+        """The finer target's rows; the same ones where there is none."""
+        finer = self.target.finer
+        if finer is None:
+            return self
+        box, pair = finer.rows(self.box, self.pair)
         return Work(finer.target, box, pair, np.full(len(box), -np.inf))
 
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """Boxes and the rows that are still open in them."""
+    """Boxes and the rows that are still open in them.
+
+    Attributes:
+        boxes: the boxes.
+        work: open rows.
+        depth: how often the boxes were halved.
+        fresh: targets whose pairs are all open.
+    """
 
     boxes: Boxes
     work: list[Work]
     depth: int
+    fresh: tuple[Target, ...] = ()
 
 
 def whole(live: list[Target], n: int) -> list[Batch]:
     """All pieces against all targets, few enough at a time; the first on top."""
-    pairs = sum(target.count for target in live)
-    if not pairs:
+    if not live:
         return []
-    widest = max(target.count for target in live)
-    size = max(1, min(ALL_ROWS // pairs, ROWS // max(1, widest)))
+    size = max(1, ROWS // sum(target.count for target in live))
     batches = []
     for first in range(0, n, size):
         boxes = Boxes.whole(first, min(first + size, n))
-        work = [everything(target, len(boxes.half)) for target in live]
-        batches.append(Batch(boxes, work, 0))
+        batches.append(Batch(boxes, [], 0, tuple(live)))
     return batches[::-1]
-
-
-def everything(target: Target, n: int) -> Work:
-    """Every pair of the target in each of ``n`` boxes."""
-    box = np.repeat(np.arange(n), target.count)
-    pair = np.tile(np.arange(target.count), n)
-    return Work(target, box, pair, np.full(len(box), -np.inf))
 
 
 def divide(batch: Batch, work: list[Work]) -> list[Batch]:

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.check.plans.collision.boxes import Index
-from rrnn_opt.check.plans.collision.targets import ObstacleTarget, SelfTarget, Target
+from rrnn_opt.check.plans.collision.targets import Target
 from rrnn_opt.check.plans.collision.worklist import Leaf
 
 
@@ -59,11 +58,7 @@ def tiled(rows: list[Any], pairs: int, pieces: int) -> bool:
 
 
 def nested(targets: Sequence[Target]) -> set[tuple[int, int]]:
-    """(ball, sphere) wherever a coarse pair stands for a pair of spheres.
-
-    Raises:
-        TypeError: a target is of no kind that is known here.
-    """
+    """(ball, sphere) wherever a coarse pair stands for a pair of spheres."""
     found: set[tuple[int, int]] = set()
     for target in targets:
         level: Target = target
@@ -73,26 +68,14 @@ def nested(targets: Sequence[Target]) -> set[tuple[int, int]]:
             while (finer := finest.finer) is not None:
                 outer, pair = finer.rows(outer, pair)
                 finest = finer.target
-            sides = zip(_spheres(level), _spheres(finest), strict=True)
-            for balls, spheres in sides:
-                rows = np.stack([balls[outer], spheres[pair]], axis=1)
+            sides = zip(level.spheres, finest.spheres, strict=True)
+            for balls, held in sides:
+                rows = np.stack([balls[outer], held[pair]], axis=1)
                 found |= {(int(a), int(b)) for a, b in np.unique(rows, axis=0)}
             level = level.finer.target
     return found
 
 
-def _spheres(target: Target) -> list[Index]:
-    if isinstance(target, ObstacleTarget):
-        return [target.movers.spheres]
-    if isinstance(target, SelfTarget):
-        return [side.spheres for side in target.sides]
-    raise TypeError(type(target).__name__)
-
-
 def spheres(target: Target, pair: int) -> list[int]:
-    """The spheres of one pair: one, or two of a self pair.
-
-    Raises:
-        TypeError: the target is of no kind that is known here.
-    """
-    return [int(side[pair]) for side in _spheres(target)]
+    """The spheres of one pair: one, or two of a self pair."""
+    return [int(side[pair]) for side in target.spheres]

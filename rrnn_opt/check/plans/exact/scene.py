@@ -11,8 +11,10 @@ import flint
 import numpy as np
 
 from rrnn_opt.check.arithmetic import cubic
+from rrnn_opt.check.plans.collision.against import ObstacleTarget
+from rrnn_opt.check.plans.collision.itself import SelfTarget
 from rrnn_opt.check.plans.collision.scene import Scene
-from rrnn_opt.check.plans.collision.targets import ObstacleTarget, SelfTarget, Target
+from rrnn_opt.check.plans.collision.targets import Target
 from rrnn_opt.check.plans.exact.cover import spheres
 from rrnn_opt.check.plans.exact.robot import (
     PRECISION,
@@ -26,7 +28,6 @@ from rrnn_opt.check.plans.exact.robot import (
     length,
 )
 from rrnn_opt.check.plans.motion import Motion
-from rrnn_opt.check.plans.solids.distance import normals
 
 
 @dataclass(frozen=True)
@@ -54,17 +55,15 @@ class BallScene:
     scene: Scene
     motion: Motion
     body: BallRobot = field(init=False)
-    solids: dict[int, BallSolid] = field(init=False)
+    solids: list[BallSolid] = field(init=False)
     extents: tuple[Vector, Vector] = field(init=False)
 
     def __post_init__(self) -> None:
         """Turn all of it into balls."""
         entries = self.problem.get("obstacles") or []
-        seen = [t.obstacle for t in self.scene.targets if isinstance(t, ObstacleTarget)]
-        pairs = zip(seen, entries, strict=True)
         with flint.ctx.workprec(PRECISION):
             self.body = BallRobot(self.robot, self.scene.model)
-            self.solids = {id(solid): BallSolid(entry) for solid, entry in pairs}
+            self.solids = [BallSolid(entry) for entry in entries]
             self.extents = self._extents()
 
     def _cubic(self, piece: int, k: int) -> list[Ball]:
@@ -123,18 +122,19 @@ class BallScene:
             TypeError: the target is of no kind that is known here.
         """
         if isinstance(target, ObstacleTarget):
-            sphere = int(target.movers.spheres[pair])
+            (sphere,) = spheres(target, pair)
             point = self.body.centre(now.pose, sphere)
-            n = _proposed(target, point)
-            gap = self.solids[id(target.obstacle)].gap(point, n)
-            moving = [(sphere, point, _joints(target.movers.moved[pair]), 1)]
+            solid, own = divmod(pair, len(target.movers.spheres))
+            n = _proposed(target, solid, point)
+            gap = self.solids[target.members[solid]].gap(point, n)
+            moving = [(sphere, point, _joints(target.movers.moved[:, own]), 1)]
         elif isinstance(target, SelfTarget):
-            i, j = (int(side.spheres[pair]) for side in target.sides)
+            i, j = spheres(target, pair)
             at_i, at_j = (self.body.centre(now.pose, k) for k in (i, j))
             apart = [a - b for a, b in zip(at_i, at_j, strict=True)]
             n = [exact(float(a)) for a in apart]
             gap = dot(n, apart) / length(n)
-            own_i, own_j = (_joints(side.moved[pair]) for side in target.sides)
+            own_i, own_j = (_joints(side.moved[:, pair]) for side in target.sides)
             moving = [(i, at_i, own_i, 1), (j, at_j, own_j, -1)]
         else:
             raise TypeError(type(target).__name__)
@@ -177,7 +177,8 @@ def _joints(moved: Any) -> list[int]:
     return [int(k) for k in np.flatnonzero(moved)]
 
 
-def _proposed(target: ObstacleTarget, point: Vector) -> Vector:
+def _proposed(target: ObstacleTarget, solid: int, point: Vector) -> Vector:
     """A normal by doubles, taken as the numbers that they are."""
-    found = normals(target.obstacle, np.array([[float(x) for x in point]]))[0]
-    return [exact(x) for x in found]
+    column = np.array([[float(x)] for x in point])
+    _, n = target.solids.facing(column, np.array([solid]))
+    return [exact(x) for x in n[:, 0]]

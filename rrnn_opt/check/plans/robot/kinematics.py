@@ -14,10 +14,12 @@ from rrnn_opt.check.plans.robot.model import Model
 class Frames(NamedTuple):
     """Joint frames in the world at N configurations.
 
+    These come last: numbers of one kind stand side by side, so few calls do much.
+
     Attributes:
-        rotations: (N, nj, 3, 3).
-        origins: (N, nj, 3), m.
-        axes: joint axes, (N, nj, 3).
+        rotations: (nj, 3, 3, N).
+        origins: (nj, 3, N), m.
+        axes: joint axes, (nj, 3, N).
     """
 
     rotations: Array
@@ -25,76 +27,49 @@ class Frames(NamedTuple):
     axes: Array
 
 
-def turn_forms(model: Model) -> Array:
-    """The three matrices whose sum is a joint's frame in its parent's.
-
-    ``P (a a' + cos (I - a a') + sin [a]x)``, P the placement and a the axis; a
-    slide does not turn, its first matrix is P and the others are zero.
-
-    Returns:
-        (nj, 3, 3, 3).
-    """
-    p, a = model.rotation, model.axes
-    x, y, z = a.T
-    zero = np.zeros_like(x)
-    cross = np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]])
-    along = np.einsum("kij,kj->ki", p, a)[:, :, None] * a[:, None, :]
-    forms = np.stack([along, p - along, p @ np.moveaxis(cross, 2, 0)], axis=1)
-    forms[model.prismatic] = 0.0
-    forms[model.prismatic, 0] = p[model.prismatic]
-    return forms
-
-
 def forward(model: Model, joints: Array) -> Frames:
     """Frames of all joints.
 
     Args:
         model: the robot.
-        joints: joint values (not coordinates), (N, nj), rad or m.
+        joints: joint values (not coordinates), (nj, N), rad or m.
     """
-    n = len(joints)
-    rotations = np.empty((model.nj, n, 3, 3))
-    origins, axes = np.empty((model.nj, n, 3)), np.empty((model.nj, n, 3))
+    nj, n = joints.shape
     turned = _turned(model, joints)
-    slides = np.einsum("kij,kj->ki", model.rotation, model.axes)
+    rotations = np.empty((nj + 1, 3, 3, n))
+    rotations[nj] = np.eye(3)[:, :, None]  # the base: parent -1 is the last
     for k, parent in enumerate(model.parents):
-        if parent < 0:
-            rotations[k], axes[k] = turned[k], slides[k]
-            origins[k] = model.translation[k]
-        else:
-            base = rotations[parent]
-            np.matmul(base, turned[k], out=rotations[k])
-            axes[k] = base @ slides[k]
-            origins[k] = origins[parent] + base @ model.translation[k]
-        if model.prismatic[k]:
-            origins[k] += joints[:, k, None] * axes[k]
-    return Frames(
-        np.moveaxis(rotations, 0, 1), np.moveaxis(origins, 0, 1), axes.swapaxes(0, 1)
-    )
+        np.sum(rotations[parent][:, :, None] * turned[k], axis=1, out=rotations[k])
+    bases = rotations[model.parents]
+    axes = (bases * model.slides[:, None, :, None]).sum(axis=2)
+    steps = (bases * model.translation[:, None, :, None]).sum(axis=2)
+    steps[model.prismatic] += (joints[:, None] * axes)[model.prismatic]
+    origins = np.zeros((nj + 1, 3, n))
+    for k, parent in enumerate(model.parents):
+        np.add(origins[parent], steps[k], out=origins[k])
+    return Frames(rotations[:nj], origins[:nj], axes)
 
 
 def _turned(model: Model, joints: Array) -> Array:
-    """Each joint's frame in its parent's, (nj, N, 3, 3)."""
-    sine, cosine = sincos(joints.T)
-    forms = turn_forms(model)[:, :, None]
-    turned: Array = forms[:, 1] * cosine[..., None, None]
-    turned += forms[:, 2] * sine[..., None, None]
+    """Each joint's frame in its parent's, (nj, 3, 3, N)."""
+    sine, cosine = sincos(joints)
+    forms = model.turn_forms[..., None]
+    turned: Array = forms[:, 1] * cosine[:, None, None]
+    turned += forms[:, 2] * sine[:, None, None]
     turned += forms[:, 0]
     return turned
 
 
 def sphere_centres(model: Model, frames: Frames) -> Array:
-    """Centres of all spheres in the world, (N, ns, 3), m."""
-    n, ns = len(frames.origins), len(model.radii)
-    centres = np.empty((n, ns, 3))
-    for joint in np.unique(model.carrier):
-        mine = model.carrier == joint
+    """Centres of all spheres in the world, (3, ns, N), m."""
+    centres = np.empty((3, len(model.radii), frames.origins.shape[2]))
+    for joint, mine in model.carried:
         local = model.centres[mine]
         if joint < 0:
-            centres[:, mine] = local
+            centres[:, mine] = local.T[:, :, None]
         else:
-            turned = local @ np.swapaxes(frames.rotations[:, joint], 1, 2)
-            centres[:, mine] = frames.origins[:, joint, None] + turned
+            turned = local @ frames.rotations[joint]
+            centres[:, mine] = turned + frames.origins[joint][:, None]
     return centres
 
 
@@ -103,6 +78,6 @@ def tip_pose(model: Model, q: Array) -> tuple[Array, Array]:
     _, joint, rotation, translation = model.tip
     if joint < 0:
         return rotation, translation
-    frames = forward(model, model.joint_values(q[None]))
-    base_r, base_p = frames.rotations[0, joint], frames.origins[0, joint]
+    frames = forward(model, model.joint_values(q[None]).T)
+    base_r, base_p = frames.rotations[joint, ..., 0], frames.origins[joint, :, 0]
     return base_r @ rotation, base_p + base_r @ translation

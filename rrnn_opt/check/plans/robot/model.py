@@ -88,6 +88,37 @@ class Model:
         padded = np.vstack([self.moved_by, np.zeros((1, self.nj), dtype=bool)])
         return padded[self.carrier]  # carrier -1 takes the last row: nothing
 
+    @cached_property
+    def slides(self) -> Array:
+        """Axes in their parents' frames, (nj, 3)."""
+        slides: Array = np.einsum("kij,kj->ki", self.rotation, self.axes)
+        return slides
+
+    @cached_property
+    def turn_forms(self) -> Array:
+        """The three matrices whose sum is a joint's frame in its parent's.
+
+        ``P (a a' + cos (I - a a') + sin [a]x)``, P the placement and a the axis;
+        a slide does not turn, its first matrix is P and the others are zero.
+
+        Returns:
+            (nj, 3, 3, 3).
+        """
+        p, (x, y, z) = self.rotation, self.axes.T
+        zero = np.zeros_like(x)
+        cross = np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]])
+        along = self.slides[:, :, None] * self.axes[:, None, :]
+        forms = np.stack([along, p - along, p @ np.moveaxis(cross, 2, 0)], axis=1)
+        forms[self.prismatic] = 0.0
+        forms[self.prismatic, 0] = p[self.prismatic]
+        return forms
+
+    @cached_property
+    def carried(self) -> tuple[tuple[int, NDArray[np.int64]], ...]:
+        """Joints that carry spheres (-1: the base), and the spheres of each."""
+        joints = np.unique(self.carrier).tolist()
+        return tuple((k, np.flatnonzero(self.carrier == k)) for k in joints)
+
 
 def read_model(robot: Any) -> Model:
     """The robot block of a plan.

@@ -9,7 +9,7 @@ For joint moves ``|delta_k| <= h_k`` a centre goes to ``p + J delta + rest``,
 over the joints that move the centre, j < k being nearer to the base.  R_k is
 no less than the distance of the centre from joint k's axis: the chain length
 between them, each prismatic joint at its largest extension.  All of it are sums
-of products of numbers >= 0: ``GROW`` covers their rounding.
+of products of numbers >= 0: ``GROW`` covers their rounding, in any order.
 """
 
 from __future__ import annotations
@@ -34,26 +34,21 @@ def reach_table(model: Model, low: Array, high: Array) -> Array:
         high: greatest, (nj,), m.
 
     Returns:
-        (ns, nj), m; zero where the joint does not move the sphere.
+        (nj, ns), m; zero where the joint does not move the sphere.
     """
-    slide = np.einsum("kij,kj->ki", model.rotation, model.axes)
-    slide = slide * model.prismatic[:, None]
+    slide = model.slides * model.prismatic[:, None]
     links = np.maximum(
         _lengths(model.translation + slide * low[:, None]),
         _lengths(model.translation + slide * high[:, None]),
     )
     most = np.maximum(np.abs(low), np.abs(high))
     links += PLACED * most * model.prismatic
-    table = np.zeros((len(model.radii), model.nj))
-    arms = _lengths(model.centres)
-    for joint in np.unique(model.carrier):
-        mine = model.carrier == joint
-        length, k = arms[mine], int(joint)
-        while k >= 0:
-            table[mine, k] = length * GROW
-            length = length + links[k]
-            k = int(model.parents[k])
-    return table
+    chains = np.zeros((model.nj + 1, model.nj))  # from joint k to joint j: [j, k]
+    for j, parent in enumerate(model.parents):
+        if parent >= 0:
+            chains[j] = (chains[parent] + links[j]) * model.moved_by[parent]
+    table = chains[model.carrier] + _lengths(model.centres)[:, None]
+    return np.ascontiguousarray((table * model.sphere_moved_by).T * GROW)
 
 
 def _lengths(rows: Array) -> Array:
@@ -67,30 +62,42 @@ def motion_bound(
     moved: NDArray[np.bool_],
     prismatic: NDArray[np.bool_],
 ) -> Array:
-    """B of the module's docstring, row by row.
+    """B of the module's docstring, column by column.
 
     Args:
-        h: bounds of the joint moves, (M, nj), rad or m.
-        reach: R, (M, nj), m.
-        moved: which joints count, (M, nj) or (nj,).
+        h: bounds of the joint moves, (nj, M), rad or m.
+        reach: R, (nj, M), m.
+        moved: which joints count, (nj, M) or (nj, 1).
         prismatic: (nj,).
 
     Returns:
         (M,), m.
     """
     step = h * moved
-    turned = step * ~prismatic
+    slides = prismatic[:, None]
+    turned = step * ~slides
     before = np.zeros_like(step)
-    np.cumsum(turned[:, :-1], axis=1, out=before[:, 1:])
-    levers = np.where(prismatic, 1.0, reach)
+    np.cumsum(turned[:-1], axis=0, out=before[1:])
     before += before
-    total: Array = np.einsum("ij,ij,ij->i", step, levers, turned + before)
-    return total * GROW
+    before += turned
+    before *= step
+    before *= np.where(slides, 1.0, reach)
+    total: Array = before.sum(axis=0) * GROW
+    return total
 
 
 def travel_levers(
     reach: Array, moved: NDArray[np.bool_], prismatic: NDArray[np.bool_]
 ) -> Array:
-    """Levers L with |p(q + delta) - p(q)| <= L.h: R for a turn, 1 for a slide."""
-    levers: Array = np.where(prismatic, 1.0, reach) * moved * GROW
+    """Levers L with |p(q + delta) - p(q)| <= L.h: R for a turn, 1 for a slide.
+
+    Args:
+        reach: R, (nj, M), m.
+        moved: which joints count, (nj, M).
+        prismatic: (nj,).
+
+    Returns:
+        (nj, M), m.
+    """
+    levers: Array = np.where(prismatic[:, None], 1.0, reach) * moved * GROW
     return levers

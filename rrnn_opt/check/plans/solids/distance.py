@@ -2,237 +2,203 @@
 
 ``gap`` is what proofs rest on: for *any* unit n the obstacle lies in the
 half-space ``n.x <= support(n)``, so a poor normal weakens a bound but never
-falsifies it.  Signed distances only propose n and refute.
+falsifies it.  Signed distances only propose n and refute.  Everything is said in
+the solid's own axes, and of many solids of one kind at once.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rrnn_opt.check.plans import reading
-from rrnn_opt.check.plans.reading import Array, get
+from rrnn_opt.check.plans.reading import Array
 from rrnn_opt.check.plans.solids.cloud import Cloud
-from rrnn_opt.check.plans.solids.files import read_points
 from rrnn_opt.check.plans.solids.hull import Hull
-from rrnn_opt.errors import DocumentError
+from rrnn_opt.check.plans.solids.obstacle import Obstacle
 
+Index = NDArray[np.int64]
 TINY = 1e-100
 """Vectors shorter than this, m, are not divided by their length: any direction
 will do, and none may lose its unit length to underflow."""
 
 
 @dataclass(frozen=True, eq=False)
-class Obstacle:
-    """An obstacle, convex but for a cloud.
+class Solids:
+    """Obstacles of one kind, side by side; a mesh or a cloud stands alone.
 
     No half-space holds a cloud tightly: ``gap`` says minus infinity there, and
     its distances alone prove and refute.
 
     Attributes:
-        name: as in the problem file.
-        kind: "box", "cylinder", "capsule", "sphere", "halfspace", "mesh" or
-            "points".
-        rotation: its axes as columns, (3, 3); a half-space has its normal third.
-        position: (3,), m.
-        dims: box: half edges; cylinder, capsule: radius and half length;
-            sphere: radius; half-space: offset; mesh: largest coordinate;
-            points: radius and largest coordinate, m.
-        matter: what a mesh or a cloud is made of.
+        kind: as in :class:`Obstacle`.
+        names: of each.
+        turns: from the world's axes to each one's own, (O, 3, 3).
+        columns: the same, the solids last, (3, 3, O).
+        positions: (3, O), m.
+        dims: as in :class:`Obstacle`, (k, O), m.
+        sizes: see ``Obstacle.size``, (O,), m.
+        matter: what the mesh or cloud is made of.
     """
 
-    name: str
     kind: str
-    rotation: Array
-    position: Array
+    names: tuple[str, ...]
+    turns: Array
+    columns: Array
+    positions: Array
     dims: Array
-    matter: Hull | Cloud | None = None
+    sizes: Array
+    matter: Hull | Cloud | None
 
-    @property
-    def size(self) -> float:
-        """Distance from the origin plus its own dimensions, m: for rounding."""
-        return float(np.abs(self.position).sum() + np.abs(self.dims).sum())
+    @staticmethod
+    def of(obstacles: Sequence[Obstacle]) -> Solids:
+        """Obstacles of one kind; one alone where it has matter."""
+        turns = np.stack([o.rotation.T for o in obstacles])
+        return Solids(
+            obstacles[0].kind,
+            tuple(o.name for o in obstacles),
+            turns,
+            np.ascontiguousarray(np.moveaxis(turns, 0, 2)),
+            np.stack([o.position for o in obstacles], axis=1),
+            np.stack([o.dims for o in obstacles], axis=1),
+            np.array([o.size for o in obstacles]),
+            obstacles[0].matter,
+        )
 
+    def local(self, points: Array, which: Index) -> Array:
+        """World positions (3, M) in the axes of one solid each, (3, M), m."""
+        away = points - self.positions.take(which, axis=1)
+        local: Array = (self.columns.take(which, axis=2) * away).sum(axis=1)
+        return local
 
-def read_obstacle(value: Any, name: str) -> Obstacle:
-    """An entry of "obstacles".
+    def every_distance(self, points: Array) -> Array:
+        """Signed distance of each solid to all points (3, N), (O, N), m."""
+        local = self.turns @ (points - self.positions.T[:, :, None])
+        return self._signed(local.swapaxes(0, 1), self.dims[:, :, None])
 
-    Raises:
-        DocumentError: a field is missing or malformed, or the type is unknown.
-    """
-    entry = reading.mapping(value, name)
-    kind = reading.text(get(entry, "type", name), f"{name}.type")
-    label = str(entry.get("name", name))
-    if kind == "halfspace":
-        return _read_halfspace(entry, name, label)
-    if kind == "points":
-        return _read_cloud(entry, name, label)
-    turned = entry.get("quat_xyzw")
-    rotation = np.eye(3)
-    if turned is not None:
-        rotation = reading.quaternion(turned, f"{name}.quat_xyzw")
-    given = entry.get("position", [0, 0, 0] if kind == "mesh" else None)
-    position = reading.numbers(given, (3,), f"{name}.position")
-    if kind == "mesh":
-        scale = reading.positive(entry.get("scale", 1.0), f"{name}.scale")
-        hull = Hull(scale * read_points(entry, name), name)
-        return Obstacle(label, kind, rotation, position, np.array([hull.size]), hull)
-    return Obstacle(label, kind, rotation, position, _read_dims(entry, kind, name))
+    def distance(self, points: Array, which: Index) -> Array:
+        """Signed distance of points (3, M) to one solid each, (M,), m."""
+        return self._signed(self.local(points, which), self.dims.take(which, axis=1))
 
+    def facing(self, points: Array, which: Index) -> tuple[Array, Array]:
+        """The half-space that holds the solid where it is nearest.
 
-def _read_cloud(entry: Any, name: str, label: str) -> Obstacle:
-    cloud = Cloud(read_points(entry, name))
-    radius = reading.positive(get(entry, "radius", name), f"{name}.radius")
-    dims = np.array([radius, cloud.size])
-    return Obstacle(label, "points", np.eye(3), np.zeros(3), dims, cloud)
+        Args:
+            points: world positions, (3, M), m.
+            which: the solid of each, (M,).
 
+        Returns:
+            How far the point lies beyond it, (M,), m, never more than the signed
+            distance; and its outward normal in world axes, (3, M).
+        """
+        local = self.local(points, which)
+        n = self.normals(local, which)
+        outward = (self.columns.take(which, axis=2) * n[:, None]).sum(axis=0)
+        return self.gap(local, n, which), outward
 
-def _read_dims(entry: Any, kind: str, name: str) -> Array:
-    if kind == "box":
-        size = reading.numbers(get(entry, "size", name), (3,), f"{name}.size")
-        if np.any(size <= 0):
-            raise DocumentError(f"{name}.size", "must be positive")
-        return size / 2
-    if kind not in ("cylinder", "capsule", "sphere"):
-        raise DocumentError(f"{name}.type", f"'{kind}' cannot be judged here")
-    radius = reading.positive(get(entry, "radius", name), f"{name}.radius")
-    if kind == "sphere":
-        return np.array([radius])
-    length = reading.number(get(entry, "length", name), f"{name}.length")
-    if length < 0 or (length == 0 and kind == "cylinder"):
-        raise DocumentError(f"{name}.length", "must be positive")
-    return np.array([radius, length / 2])
+    def normals(self, local: Array, which: Index) -> Array:
+        """Outward unit normals where the solid is nearest, own axes, (3, M).
 
+        At centres and edges one of the possible normals.
+        """
+        if self.kind == "halfspace":
+            return np.repeat([[0.0], [0.0], [1.0]], len(which), axis=1)
+        if self.matter is not None:
+            return self.matter.nearest(local.T)[1].T
+        dims = self.dims.take(which, axis=1)
+        if self.kind == "box":
+            return _box_normals(local, dims)
+        if self.kind == "cylinder":
+            flat = _meridian(local)
+            m, off_axis = _box_normals(flat, dims), flat[0] > TINY
+            out = local[:2] / np.where(off_axis, flat[0], 1.0)
+            out = np.where(off_axis, out, [[1.0], [0.0]])
+            return np.concatenate([m[:1] * out, m[1:]])
+        away = _from_core(local, dims)
+        return _unit(away, np.array([[1.0], [0.0], [0.0]]))
 
-def _read_halfspace(entry: Any, name: str, label: str) -> Obstacle:
-    normal = reading.numbers(get(entry, "normal", name), (3,), f"{name}.normal")
-    length = float(np.sqrt(normal @ normal))
-    if abs(length - 1.0) > 1e-6:
-        raise DocumentError(f"{name}.normal", "must be of unit length")
-    offset = reading.number(get(entry, "offset", name), f"{name}.offset")
-    axes = np.zeros((3, 3))
-    axes[:, 2] = normal / length
-    return Obstacle(label, "halfspace", axes, np.zeros(3), np.array([offset / length]))
+    def gap(self, local: Array, n: Array, which: Index) -> Array:
+        """``n.p - support(n)``: how far p lies beyond the half-space of n.
 
+        Never more than the signed distance, whatever unit vectors n are.
 
-def signed_distance(obstacle: Obstacle, points: Array) -> Array:
-    """Distance of points to the solid, negative inside.
+        Args:
+            local: points in the solids' own axes, (3, M), m.
+            n: unit vectors, own axes, (3, M); a half-space takes its own instead.
+            which: the solid of each, (M,).
 
-    Args:
-        obstacle: the solid.
-        points: world positions, (M, 3), m.
+        Returns:
+            (M,), m.
+        """
+        dims = self.dims.take(which, axis=1)
+        if self.kind == "halfspace":
+            return self._signed(local, dims)
+        if isinstance(self.matter, Cloud):
+            return np.full(len(which), -np.inf)
+        beyond: Array = (n * local).sum(axis=0)
+        if isinstance(self.matter, Hull):
+            return beyond - self.matter.support(n.T)
+        return beyond - self._support(np.abs(n), dims)
 
-    Returns:
-        (M,), m.
-    """
-    if obstacle.kind == "halfspace":
-        return np.asarray(points @ obstacle.rotation[:, 2] - obstacle.dims[0])
-    local = (points - obstacle.position) @ obstacle.rotation
-    if obstacle.matter is not None:
-        d = obstacle.matter.nearest(local)[0]
-        return d - obstacle.dims[0] if obstacle.kind == "points" else d
-    if obstacle.kind == "box":
-        return _box(local, obstacle.dims)
-    if obstacle.kind == "cylinder":
-        return _box(_meridian(local), obstacle.dims)
-    far = _lengths(_from_core(local, obstacle.dims))
-    return np.asarray(far - obstacle.dims[0])
+    def _signed(self, local: Array, dims: Array) -> Array:
+        if self.matter is not None:
+            rows = np.moveaxis(local, 0, -1)
+            d = self.matter.nearest(rows.reshape(-1, 3))[0].reshape(rows.shape[:-1])
+            return d - dims[0] if self.kind == "points" else d
+        if self.kind == "halfspace":
+            return np.asarray(local[2] - dims[0])
+        if self.kind == "box":
+            return _box(local, dims)
+        if self.kind == "cylinder":
+            return _box(_meridian(local), dims)
+        return np.asarray(_lengths(_from_core(local, dims)) - dims[0])
 
-
-def normals(obstacle: Obstacle, points: Array) -> Array:
-    """Outward unit normals where the solid is nearest, (M, 3), world axes.
-
-    At centres and edges one of the possible normals.
-
-    Args:
-        obstacle: the solid.
-        points: world positions, (M, 3), m.
-    """
-    if obstacle.kind == "halfspace":
-        return np.broadcast_to(obstacle.rotation[:, 2], points.shape)
-    local = (points - obstacle.position) @ obstacle.rotation
-    if obstacle.matter is not None:
-        n = obstacle.matter.nearest(local)[1]
-    elif obstacle.kind == "box":
-        n = _box_normals(local, obstacle.dims)
-    elif obstacle.kind == "cylinder":
-        flat = _meridian(local)
-        m, off_axis = _box_normals(flat, obstacle.dims), flat[:, :1] > TINY
-        out = local[:, :2] / np.where(off_axis, flat[:, :1], 1.0)
-        out = np.where(off_axis, out, (1.0, 0.0))
-        n = np.concatenate([m[:, :1] * out, m[:, 1:]], axis=1)
-    else:
-        away = _from_core(local, obstacle.dims)
-        far = _lengths(away)[:, None]
-        n = np.where(far > TINY, away / np.where(far > TINY, far, 1.0), (1.0, 0.0, 0.0))
-    return np.asarray(n @ obstacle.rotation.T)
+    def _support(self, n: Array, dims: Array) -> Array:
+        """Support function about the centre, for |n| in own axes, (M,), m."""
+        if self.kind == "box":
+            return np.asarray((n * dims).sum(axis=0))
+        if self.kind == "sphere":
+            return np.asarray(_lengths(n) * dims[0])
+        across = n[:2] if self.kind == "cylinder" else n
+        return np.asarray(_lengths(across) * dims[0] + n[2] * dims[1])
 
 
-def _lengths(rows: Array) -> Array:
-    return np.asarray(np.sqrt(np.einsum("ij,ij->i", rows, rows)))
+def _lengths(columns: Array) -> Array:
+    return np.asarray(np.sqrt((columns * columns).sum(axis=0)))
+
+
+def _unit(columns: Array, instead: Array) -> Array:
+    """Columns over their lengths; ``instead`` where one is too short for that."""
+    far = _lengths(columns)
+    usual = far > TINY
+    return np.where(usual, columns / np.where(usual, far, 1.0), instead)
 
 
 def _box(local: Array, half: Array) -> Array:
-    over = np.abs(local) - half
-    most = np.maximum(over[:, 0], over[:, -1])
-    if over.shape[1] == 3:
-        most = np.maximum(most, over[:, 1])
-    return np.asarray(_lengths(np.maximum(over, 0.0)) + np.minimum(most, 0.0))
+    over = np.abs(local)
+    over -= half
+    inside = np.minimum(over.max(axis=0), 0.0)
+    return np.asarray(_lengths(np.maximum(over, 0.0)) + inside)
 
 
 def _box_normals(local: Array, half: Array) -> Array:
     over = np.abs(local) - half
-    out = np.maximum(over, 0.0)
-    far = _lengths(out)[:, None]
-    nearest = np.eye(local.shape[1])[np.argmax(over, axis=1)]
-    n = np.where(far > TINY, out / np.where(far > TINY, far, 1.0), nearest)
+    nearest = np.eye(len(local))[:, np.argmax(over, axis=0)]
+    n = _unit(np.maximum(over, 0.0), nearest)
     return np.where(local < 0, -n, n)
 
 
 def _meridian(local: Array) -> Array:
-    """Distance from the axis, and height along it, (M, 2)."""
-    return np.stack([_lengths(local[:, :2]), local[:, 2]], axis=1)
+    """Distance from the axis, and height along it, (2, ...)."""
+    return np.stack([_lengths(local[:2]), local[2]])
 
 
 def _from_core(local: Array, dims: Array) -> Array:
-    """Vectors from the centre of a sphere, or the segment of a capsule, (M, 3)."""
+    """Vectors from the centre of a sphere, or the segment of a capsule, (3, ...)."""
+    if len(dims) == 1:
+        return local
     away = local.copy()
-    if len(dims) == 2:
-        away[:, 2] -= np.clip(local[:, 2], -dims[1], dims[1])
+    away[2] -= np.clip(local[2], -dims[1], dims[1])
     return away
-
-
-def gap(obstacle: Obstacle, points: Array, n: Array) -> Array:
-    """``n.p - support(n)``: how far p lies beyond the half-space that n defines.
-
-    Never more than the signed distance, whatever unit vectors n are.
-
-    Args:
-        obstacle: the solid.
-        points: (M, 3), m.
-        n: unit vectors, (M, 3); a half-space takes its own normal instead.
-
-    Returns:
-        (M,), m.
-    """
-    if obstacle.kind == "halfspace":
-        return signed_distance(obstacle, points)
-    beyond: Array = np.einsum("ij,ij->i", n, points - obstacle.position)
-    if isinstance(obstacle.matter, Hull):
-        return beyond - obstacle.matter.support(n @ obstacle.rotation)
-    if isinstance(obstacle.matter, Cloud):
-        return np.full(len(points), -np.inf)
-    return beyond - _support(obstacle, np.abs(n @ obstacle.rotation))
-
-
-def _support(obstacle: Obstacle, n: Array) -> Array:
-    """Support function about the centre, for |n| in local axes, (M,), m."""
-    if obstacle.kind == "box":
-        return np.asarray(n @ obstacle.dims)
-    if obstacle.kind == "sphere":
-        return np.asarray(_lengths(n) * obstacle.dims[0])
-    across = n[:, :2] if obstacle.kind == "cylinder" else n
-    radius = _lengths(across) * obstacle.dims[0]
-    return np.asarray(radius + n[:, 2] * obstacle.dims[1])

@@ -5,7 +5,7 @@ import pytest
 
 from rrnn_opt.check.plans import inputs
 from rrnn_opt.check.plans.collision.bodies import CELL
-from rrnn_opt.check.plans.collision.boxes import Boxes, joint_pieces, poses
+from rrnn_opt.check.plans.collision.boxes import Boxes, poses
 from rrnn_opt.check.plans.collision.parts import Parts
 from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.robot import kinematics
@@ -35,9 +35,7 @@ def motion_of(model, rng, orders):
 
 
 def look(scene, motion, boxes):
-    return poses(
-        scene.model, joint_pieces(scene.model, motion.unit), boxes, scene.errors
-    )
+    return poses(scene.model, scene.joint, boxes, scene.errors)
 
 
 def at_instants(scene, motion, shares):
@@ -97,16 +95,17 @@ def test_a_slide_is_followed_to_its_largest_extension(tree):
     model = scene.model
     dense = at_instants(scene, motion, np.linspace(0, 1, 101))
     movers = scene.targets[0].finer.target.movers
-    turning = movers.moved & ~model.prismatic
-    assert dense.joints[:, 1].max() > 0.29
+    turning = movers.moved & ~model.prismatic[:, None]
+    assert dense.joints[1].max() > 0.29
     centres = dense.centres[:, movers.spheres]
-    away = np.linalg.norm(centres[:, :, None] - dense.origins[:, None], axis=3)
-    assert np.all(away.max(axis=0)[turning] <= movers.reach[turning] + 1e-12)
+    apart = centres[:, None] - dense.origins.swapaxes(0, 1)[:, :, None]  # (3, nj, m, B)
+    away = np.linalg.norm(apart, axis=0)
+    assert np.all(away.max(axis=2)[turning] <= movers.reach[turning] + 1e-12)
     still = inputs.read_scene(
         Parts.of(model), {"obstacles": OBSTACLES}, Motion.of(t, q, np.zeros_like(qd))
     )
-    shorter = still.targets[0].finer.target.movers.reach[: len(movers.spheres)]
-    assert np.any(away.max(axis=0)[turning] > shorter[turning])
+    shorter = still.targets[0].finer.target.movers.reach[:, : len(movers.spheres)]
+    assert np.any(away.max(axis=2)[turning] > shorter[turning])
 
 
 @pytest.mark.parametrize("name", ["panda", "tree"])
@@ -120,10 +119,11 @@ def test_every_sphere_lies_in_its_balls(name, request):
     bodies = with_balls(read_model(robot))
     model, ns = bodies.model, bodies.ns
     rng = np.random.default_rng(3)
-    joints = rng.uniform(-1, 1, (20, model.nj))
+    joints = rng.uniform(-1, 1, (model.nj, 20))
     centres = kinematics.sphere_centres(model, kinematics.forward(model, joints))
     assert np.bincount(bodies.cell).max() <= CELL
     for ball in (bodies.cell, bodies.body[:ns], bodies.body[bodies.cell]):
-        away = np.linalg.norm(centres[:, :ns] - centres[:, ball], axis=2)
-        assert np.all(away + model.radii[:ns] <= model.radii[ball] + 1e-12)
+        away = np.linalg.norm(centres[:, :ns] - centres[:, ball], axis=0)
+        need = away.max(axis=1) + model.radii[:ns]
+        assert np.all(need <= model.radii[ball] + 1e-12)
         assert all(model.links[i] == model.links[b] for i, b in enumerate(ball))

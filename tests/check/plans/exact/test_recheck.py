@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from rrnn_opt.check import certify_trajectory, check_plan
+from rrnn_opt.check.plans.collision.look import Effort
 from rrnn_opt.check.plans.collision.parts import Parts
-from rrnn_opt.check.plans.collision.proof import Effort, prove_free
+from rrnn_opt.check.plans.collision.proof import prove_free
 from rrnn_opt.check.plans.exact.cover import tiled
 from rrnn_opt.check.plans.exact.recheck import recheck
 from rrnn_opt.check.plans.exact.scene import BallScene
@@ -55,7 +56,7 @@ def proof(robot, problem, rows):
     motion, _ = read_motion(rows, model.nv)
     scene = read_scene(Parts.of(model), problem, motion)
     effort = Effort(20_000, keep_leaves=True)
-    found = prove_free(scene.model, scene.targets, scene.errors, motion, effort)
+    found = prove_free(scene, motion, effort)
     return BallScene(robot, problem, scene, motion), found
 
 
@@ -114,7 +115,7 @@ def test_a_bound_that_lies_is_refused(planar):
     targets = balls.scene.targets
     swapped = []
     for leaf in found.leaves:
-        is_self = leaf.target.required == 0.0 and not hasattr(leaf.target, "obstacle")
+        is_self = leaf.target.required == 0.0 and not hasattr(leaf.target, "solids")
         target = targets[-1] if is_self else targets[0]
         if (leaf.target.finer is None) and target.finer is not None:
             target = target.finer.target

@@ -37,25 +37,25 @@ def test_frames_are_pinocchios(cases):
     oracle, ids = pinocchio_model(robot)
     data = oracle.createData()
     joints = model.joint_values(q)
-    frames = kinematics.forward(model, joints)
+    frames = kinematics.forward(model, joints.T)
     centres = kinematics.sphere_centres(model, frames)
     for n in range(len(q)):
         pin.forwardKinematics(oracle, data, joints[n])
         for k, joint in enumerate(ids):
             placed = data.oMi[joint]
             np.testing.assert_allclose(
-                frames.origins[n, k], placed.translation, atol=1e-12
+                frames.origins[k, :, n], placed.translation, atol=1e-12
             )
             np.testing.assert_allclose(
-                frames.rotations[n, k], placed.rotation, atol=1e-12
+                frames.rotations[k, :, :, n], placed.rotation, atol=1e-12
             )
             axis = placed.rotation @ np.array(robot["axes"][k])
-            np.testing.assert_allclose(frames.axes[n, k], axis, atol=1e-12)
+            np.testing.assert_allclose(frames.axes[k, :, n], axis, atol=1e-12)
         for i, s in enumerate(robot["spheres"]):
             point = np.array(s["center"], dtype=float)
             if s["joint"] >= 0:
                 point = data.oMi[ids[s["joint"]]].act(point)
-            np.testing.assert_allclose(centres[n, i], point, atol=1e-12)
+            np.testing.assert_allclose(centres[:, i, n], point, atol=1e-12)
 
 
 def test_tip_pose_is_pinocchios(cases):

@@ -12,7 +12,9 @@ from rrnn_opt.check.plans.robot.motion_bound import (
 
 
 def centres(model, joints):
-    return kinematics.sphere_centres(model, kinematics.forward(model, joints))
+    """Sphere centres at the rows of joint values, (N, ns, 3)."""
+    frames = kinematics.forward(model, joints.T)
+    return np.moveaxis(kinematics.sphere_centres(model, frames), 0, 2).swapaxes(0, 1)
 
 
 def jacobian(model, joints, step=1e-6):
@@ -39,29 +41,27 @@ def rest_and_bound(model, joints, delta, reach, moved):
     moves = np.stack([joints, joints + delta])
     before, after = centres(model, moves)
     rest = after - before - jacobian(model, joints) @ delta
-    h = np.broadcast_to(np.abs(delta), reach.shape)
+    h = np.broadcast_to(np.abs(delta)[:, None], reach.shape)
     return rest, motion_bound(h, reach, moved, model.prismatic)
 
 
 def test_reach_is_never_exceeded(robot):
     model, rng = read_model(robot), np.random.default_rng(1)
-    reach, moved = (
-        reach_table(model, *extents(model)),
-        read_model(robot).sphere_moved_by,
-    )
+    reach, moved = reach_table(model, *extents(model)), model.sphere_moved_by.T
     for _ in range(100):
-        joints = sample(model, rng)[None]
+        joints = sample(model, rng)[:, None]
         frames = kinematics.forward(model, joints)
-        spheres = kinematics.sphere_centres(model, frames)
-        away = np.linalg.norm(spheres[0][:, None] - frames.origins[0][None], axis=2)
-        turning = moved & ~model.prismatic
+        spheres = kinematics.sphere_centres(model, frames)[..., 0]
+        origins = frames.origins[..., 0].T
+        away = np.linalg.norm(spheres[:, None] - origins[:, :, None], axis=0)
+        turning = moved & ~model.prismatic[:, None]
         assert np.all(away[turning] <= reach[turning] + 1e-12)
         assert np.all(reach[~moved] == 0)
 
 
 def test_the_rest_never_exceeds_the_bound(robot):
     model, rng = read_model(robot), np.random.default_rng(2)
-    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by
+    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by.T
     worst = 0.0
     for _ in range(150):
         delta = rng.normal(size=model.nj) * 10 ** rng.uniform(-2, -0.3)
@@ -77,7 +77,7 @@ def test_the_rest_never_exceeds_the_bound(robot):
 def test_the_bound_is_sharp_for_a_stretched_arm(planar):
     """Both joints turn the same way, arm straight: rest -> B / 2."""
     model = read_model(planar)
-    reach, moved = reach_table(model, *extents(model)), model.sphere_moved_by
+    reach, moved = reach_table(model, *extents(model)), model.sphere_moved_by.T
     delta = np.array([1e-3, 1e-3])
     rest, bound = rest_and_bound(model, np.zeros(2), delta, reach, moved)
     ratio = 2 * np.linalg.norm(rest[2]) / bound[2]
@@ -86,7 +86,7 @@ def test_the_bound_is_sharp_for_a_stretched_arm(planar):
 
 def test_travel_is_never_exceeded(robot):
     model, rng = read_model(robot), np.random.default_rng(3)
-    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by
+    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by.T
     levers = travel_levers(reach, moved, model.prismatic)
     for _ in range(150):
         delta = rng.normal(size=model.nj) * 0.3
@@ -94,15 +94,15 @@ def test_travel_is_never_exceeded(robot):
         joints = sample(model, rng)
         before, after = centres(model, np.stack([joints, joints + delta]))
         way = np.linalg.norm(after - before, axis=1)
-        assert np.all(way <= levers @ np.abs(delta) + 1e-9)
+        assert np.all(way <= np.abs(delta) @ levers + 1e-9)
 
 
 def test_joints_above_a_common_ancestor_do_not_count(tree):
     """Seen from the last common joint, a sphere moves by the joints below it."""
     model, rng = read_model(tree), np.random.default_rng(4)
-    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by
-    own = moved[[2, 4]] & ~moved[[4, 2]]
-    np.testing.assert_array_equal(own[0], [False, True, True, False, False])
+    reach, moved = reach_table(model, *extents(model, 0.8)), model.sphere_moved_by.T
+    own = moved[:, [2, 4]] & ~moved[:, [4, 2]]
+    np.testing.assert_array_equal(own[:, 0], [False, True, True, False, False])
     for _ in range(100):
         joints, delta = sample(model, rng), rng.normal(size=5) * 0.1
         below = delta.copy()
@@ -114,6 +114,6 @@ def test_joints_above_a_common_ancestor_do_not_count(tree):
         )
         row = jacobian(model, joints)
         rest = apart[2] - apart[0] - (row[2] - row[4]) @ below
-        h = np.broadcast_to(np.abs(below), (2, 5))
-        bound = motion_bound(h, reach[[2, 4]], own, model.prismatic)
+        h = np.broadcast_to(np.abs(below)[:, None], (5, 2))
+        bound = motion_bound(h, reach[:, [2, 4]], own, model.prismatic)
         assert np.linalg.norm(rest) <= bound.sum() / 2 + 1e-9

@@ -6,13 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rrnn_opt.check.plans.solids.distance import (
-    gap,
-    normals,
-    read_obstacle,
-    signed_distance,
-)
+from rrnn_opt.check.plans.solids.distance import Solids
+from rrnn_opt.check.plans.solids.obstacle import read_obstacle
 from rrnn_opt.errors import DocumentError
+from tests.check.plans.one_solid import OneSolid
 
 TURN = (np.array([1.0, 2.0, -3.0, 1.5]) / np.linalg.norm([1, 2, -3, 1.5])).tolist()
 CENTRE = np.array([0.3, -0.2, 0.5])
@@ -63,7 +60,7 @@ def test_distances_are_coals(name):
     entry, radius = OBSTACLES[name], 0.05
     rng = np.random.default_rng(3)
     points = rng.uniform(-0.6, 0.6, (400, 3)) + CENTRE
-    d = signed_distance(read_obstacle(entry, "o"), points)
+    d = OneSolid(entry).distance(points)
     oracle = np.array([coal_distance(entry, p, radius) for p in points]) + radius
     # coal's iterative solver is exact to 1e-6; inside a solid it may say less
     outside = d > 1e-3
@@ -78,14 +75,13 @@ def test_distances_are_coals(name):
 
 @pytest.mark.parametrize("name", KINDS)
 def test_normals_are_gradients(name):
-    obstacle = read_obstacle(OBSTACLES[name], "o")
+    solid = OneSolid(OBSTACLES[name])
     points = np.random.default_rng(4).uniform(-0.7, 0.7, (500, 3)) + CENTRE
-    n = normals(obstacle, points)
+    n = solid.normals(points)
     np.testing.assert_allclose(np.linalg.norm(n, axis=1), 1.0, atol=1e-12)
     step = 1e-6
     slopes = [
-        (signed_distance(obstacle, points + e) - signed_distance(obstacle, points - e))
-        / (2 * step)
+        (solid.distance(points + e) - solid.distance(points - e)) / (2 * step)
         for e in step * np.eye(3)
     ]
     good = np.abs(np.stack(slopes, axis=1) - n).max(axis=1) < 1e-4
@@ -98,27 +94,57 @@ def test_normals_are_gradients(name):
 def test_any_direction_gives_a_true_lower_bound(name, seed):
     """gap(n) <= d for every unit n, with equality at the normal outside."""
     rng = np.random.default_rng(seed)
-    obstacle = read_obstacle(OBSTACLES[name], "o")
+    solid = OneSolid(OBSTACLES[name])
     points = rng.uniform(-1, 1, (50, 3)) + CENTRE
-    d, best = signed_distance(obstacle, points), normals(obstacle, points)
+    d, best = solid.distance(points), solid.normals(points)
     n = rng.normal(size=(50, 3))
     n /= np.linalg.norm(n, axis=1)[:, None]
-    assert np.all(gap(obstacle, points, n) <= d + 1e-12)
+    assert np.all(solid.gap(points, n) <= d + 1e-12)
     outside = d > 1e-9
-    sharp = gap(obstacle, points, best)
+    sharp = solid.gap(points, best)
     np.testing.assert_allclose(sharp[outside], d[outside], atol=1e-12)
 
 
 @pytest.mark.parametrize("name", KINDS)
 def test_special_points_have_a_unit_normal(name):
-    obstacle = read_obstacle(OBSTACLES[name], "o")
+    solid = OneSolid(OBSTACLES[name])
+    obstacle = solid.obstacle
     half = 0.25 * obstacle.rotation[:, 2]
     points = np.array(
         [obstacle.position, obstacle.position + half, obstacle.position - 2 * half]
     )
-    d, n = signed_distance(obstacle, points), normals(obstacle, points)
+    d, n = solid.distance(points), solid.normals(points)
     assert np.all(np.isfinite(d))
     np.testing.assert_allclose(np.linalg.norm(n, axis=1), 1.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["box", "cylinder", "capsule", "sphere", "halfspace"])
+def test_solids_side_by_side_answer_as_each_alone(kind):
+    """All with all points, and each with its own, against one at a time."""
+    rng, entries = np.random.default_rng(6), []
+    for _ in range(7):
+        q = rng.normal(size=4)
+        placed = {"position": rng.uniform(-1, 1, 3).tolist()}
+        placed["quat_xyzw"] = (q / np.linalg.norm(q)).tolist()
+        size = {"size": rng.uniform(0.1, 0.5, 3).tolist(), "offset": rng.normal()}
+        size |= {"radius": rng.uniform(0.1, 0.3), "length": rng.uniform(0.1, 0.5)}
+        n = rng.normal(size=3)
+        size["normal"] = (n / np.linalg.norm(n)).tolist()
+        entries.append({"type": kind, **placed, **size})
+    alone = [OneSolid(entry) for entry in entries]
+    solids = Solids.of([one.obstacle for one in alone])
+    points = rng.uniform(-1, 1, (40, 3))
+    table = np.stack([one.distance(points) for one in alone])
+    np.testing.assert_allclose(solids.every_distance(points.T), table, atol=1e-14)
+    which = rng.integers(0, 7, 40)
+    mine = table[which, np.arange(40)]
+    np.testing.assert_allclose(solids.distance(points.T, which), mine, atol=1e-14)
+    gap, n = solids.facing(points.T, which)
+    for k, i in enumerate(which):
+        at = points[k : k + 1]
+        np.testing.assert_allclose(n[:, k], alone[i].normals(at)[0], atol=1e-14)
+        wanted = alone[i].gap(at, alone[i].normals(at))[0]
+        assert gap[k] == pytest.approx(wanted, abs=1e-14)
 
 
 @pytest.mark.parametrize(
