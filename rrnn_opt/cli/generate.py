@@ -51,6 +51,12 @@ def _add_options(parser: argparse.ArgumentParser) -> None:
     add("--no-whitening", action="store_true", help="leave the task's rows as they are")
     add("--fused", action="store_true", help="let a*b + c be rounded once")
     add("--trig", choices=("own", "libm"), default="own", help="sine and cosine")
+    _add_parts(parser)
+
+
+def _add_parts(parser: argparse.ArgumentParser) -> None:
+    """What the package holds besides the step."""
+    add = parser.add_argument
     add("--task", choices=("position", "pose"), help="what of the tip is controlled")
     add("--obstacles", type=int, default=0, metavar="M", help="spheres to keep off")
     add(
@@ -81,6 +87,19 @@ def run(args: argparse.Namespace, out: Output) -> int:
         UsageError: ``--task``, and the scheme has one task only.
     """
     target = folder(args.out)
+    package = _measured(_package(args), args.target, out)
+    written = package.write(target)
+    out.document(package.manifest)
+    out.say(f"wrote {written}")
+    return 0
+
+
+def _package(args: argparse.Namespace) -> Any:
+    """The package that the options ask for.
+
+    Raises:
+        UsageError: ``--task``, and the scheme has one task only.
+    """
     scheme, robot = named.scheme(args.formulation), named.robot(args.robot)
     from rrnn_opt.embedding import generate
     from rrnn_opt.embedding.step_bound import longest_step
@@ -91,7 +110,7 @@ def run(args: argparse.Namespace, out: Output) -> int:
     step, longest = args.step_size, longest_step(rule, form, row_norm)
     if step is None and longest is not None:
         step = float(f"{_SHARE * longest:.3g}")
-    package = generate(
+    return generate(
         rule(form),
         network=rule,
         kinematics=kin,
@@ -108,11 +127,6 @@ def run(args: argparse.Namespace, out: Output) -> int:
         onboard=_onboard(args, kin),
         layout=args.layout,
     )
-    package = _measured(package, args.target, out)
-    written = package.write(target)
-    out.document(package.manifest)
-    out.say(f"wrote {written}")
-    return 0
 
 
 def _rule(args: argparse.Namespace) -> Any:

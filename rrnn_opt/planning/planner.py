@@ -171,27 +171,8 @@ def _delivered(
     run: Run, search: Search, runtime: Runtime, goals: OpenGoals
 ) -> PlanResult:
     """Refine, retime and certify the path found; a path is kept in any case."""
-    run.path = search.path()
     begin = time.perf_counter()
-
-    def another(number: int) -> Search:
-        packed = pack(run.problem, goals.joints, goals.tips, run.seed, number)
-        return open_search(runtime, run.settings, packed)
-
-    if isinstance(run.settings, RandomRnn):
-        refined = refine(
-            search,
-            another,
-            run.settings,
-            run.seed,
-            shortest=goals.nearest(run.problem.start),
-            improve_s=run.improve_s,
-        )
-        run.path = refined.path
-        run.figures["refinements"] = refined.rounds
-        run.figures["first_path_length"] = refined.first_length
-    else:
-        run.path = thinned(search, run.path)
+    run.path = _refined(run, search, runtime, goals)
     run.figures["path_length"] = length(run.path)
     run.figures["refine_time_s"] = time.perf_counter() - begin
     try:
@@ -200,13 +181,33 @@ def _delivered(
         return run.result("uncertified", f"path found, but not timed: {error}")
     run.trajectory = delivery.trajectory
     run.certificate = delivery.certificate.to_dict()
-    proved = delivery.certificate.proved
-    return run.result(
-        "solved" if proved else "uncertified",
-        "trajectory found and proved"
-        if proved
-        else "path found, but its trajectory could not be proved; the path is kept",
+    if delivery.certificate.proved:
+        return run.result("solved", "trajectory found and proved")
+    message = "path found, but its trajectory could not be proved; the path is kept"
+    return run.result("uncertified", message)
+
+
+def _refined(run: Run, search: Search, runtime: Runtime, goals: OpenGoals) -> Array:
+    """The path found: shortened if it is of slides, thinned if it was rolled out."""
+    run.path = search.path()
+    if not isinstance(run.settings, RandomRnn):
+        return thinned(search, run.path)
+
+    def another(number: int) -> Search:
+        packed = pack(run.problem, goals.joints, goals.tips, run.seed, number)
+        return open_search(runtime, run.settings, packed)
+
+    refined = refine(
+        search,
+        another,
+        run.settings,
+        run.seed,
+        shortest=goals.nearest(run.problem.start),
+        improve_s=run.improve_s,
     )
+    run.figures["refinements"] = refined.rounds
+    run.figures["first_path_length"] = refined.first_length
+    return refined.path
 
 
 def _timed(run: Run, path: Array) -> Delivery[check.TrajectoryCertificate]:

@@ -86,16 +86,12 @@ def _drawing(document: dict[str, Any]) -> Drawing:
     tip = tip_positions(robot, frames)
     targets, goals = _goals(document)
     traces = tool_traces(document)
-    seen = [tip, targets, *traces.values()]
-    space = workspace(_extent(robot, frames, seen), margin=0.12)
+    extent = _extent(robot, frames, [tip, targets, *traces.values()])
+    space = workspace(extent, margin=0.12)
     shapes, missing = obstacles_of(document)
     tile = space.size / TILES
-    solids = [drawn(shape, space, tile=tile) for shape in shapes]
-    outside = [
-        f"{shape.name} (outside)"
-        for shape, solid in zip(shapes, solids, strict=True)
-        if not len(solid.quads)
-    ]
+    solids, outside = _solids(shapes, space, tile)
+    watched = _watched(frames, tip, targets)
     near = sampled_clearance(robot, shapes, motion.q) if motion.moves else None
     return Drawing(
         motion=motion,
@@ -107,15 +103,26 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         goals=goals,
         space=space,
         shapes=shapes,
-        solids=[solid for solid in solids if len(solid.quads)],
+        solids=solids,
         missing=missing + outside,
         distance=None if near is None else near.distance,
         closest=None if near is None else near.closest,
         traces=traces,
-        view=best_view(
-            _watched(frames, tip, targets), merged(solids).corners, cell=tile
-        ),
+        view=best_view(watched, merged(solids).corners, cell=tile),
     )
+
+
+def _solids(
+    shapes: list[Obstacle], space: Workspace, tile: float
+) -> tuple[list[Mesh], list[str]]:
+    """Shapes as they are drawn, and the names of those outside the workspace."""
+    solids = [drawn(shape, space, tile=tile) for shape in shapes]
+    outside = [
+        f"{shape.name} (outside)"
+        for shape, solid in zip(shapes, solids, strict=True)
+        if not len(solid.quads)
+    ]
+    return [solid for solid in solids if len(solid.quads)], outside
 
 
 def _goals(document: dict[str, Any]) -> tuple[Array, list[Array]]:

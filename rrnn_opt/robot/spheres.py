@@ -117,30 +117,39 @@ def fit_spheres(
     moving = _moving(robot, tuple(links), adjacent)
     contacts = [PairContact(links[a], links[b], geometry, seen) for a, b in moving]
     others = [PairContact(links[a], links[b], geometry, fresh) for a, b in moving]
-    unchecked = _never(robot, contacts, geometry)
-    for contact in contacts:
-        why = unchecked.get(contact.names) or _always(contact)
-        unchecked |= {contact.names: why} if why else {}
-    before = {c.names: (c.overlap.copy(), c.touch.copy()) for c in others}
+    unchecked = _unchecked(robot, contacts, geometry)
+    checked = set(moving) - set(unchecked)
+    before = _self_contact(others, checked)
     kept = [c for c in contacts if c.names not in unchecked]
     refine(kept, extra=extra, share=SHARE)
-    rows = [(a, b, "adjacent") for a, b in combinations(links, 2) if {a, b} in adjacent]
-    rows += [
-        (*contact.names, unchecked[contact.names])
-        for contact in contacts
-        if contact.names in unchecked
-    ]
-    checked = set(moving) - {(a, b) for a, b, _ in rows}
     for contact in others:
         contact.look()
-    after = {c.names: (c.overlap, c.touch) for c in others}
+    rows = [(a, b, "adjacent") for a, b in combinations(links, 2) if {a, b} in adjacent]
+    rows += [(*pair, why) for pair, why in unchecked.items()]
     return FittedSpheres(
         tuple(link.cover() for link in links.values()),
         tuple(rows),
         tuple(visual),
-        self_contact((after[pair] for pair in checked), POSTURES),
-        self_contact((before[pair] for pair in checked), POSTURES),
+        _self_contact(others, checked),
+        before,
     )
+
+
+def _self_contact(contacts: Sequence[PairContact], checked: set[Pair]) -> SelfContact:
+    """How often checked pairs touch as their spheres are now."""
+    marks = ((c.overlap, c.touch) for c in contacts if c.names in checked)
+    return self_contact(marks, POSTURES)
+
+
+def _unchecked(
+    robot: Robot,
+    contacts: Sequence[PairContact],
+    geometry: Mapping[str, list[Geometry]],
+) -> dict[Pair, str]:
+    """Pairs that should not be checked, in their order, and why."""
+    never = _never(robot, contacts, geometry)
+    reasons = {c.names: never.get(c.names) or _always(c) for c in contacts}
+    return {pair: why for pair, why in reasons.items() if why}
 
 
 def _moving(

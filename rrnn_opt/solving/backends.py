@@ -140,21 +140,12 @@ class Qpsolvers:
             return Solution(
                 None, None, Status.NOT_AVAILABLE, NOT_JUDGED, 0.0, message=message
             )
-        settings = TIGHT.get(self.name, {}) if self.settings is None else self.settings
         dense = Dense.of(instance.problem)
         start = time.perf_counter()
         try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                answer = qpsolvers.solve_problem(
-                    instance.problem,
-                    solver=self.name,
-                    initvals=self._last,
-                    **settings,
-                )
+            answer = self._answer(instance)
         except Exception as error:
-            spent = time.perf_counter() - start
-            return _failed(dense, error, spent)
+            return _failed(dense, error, time.perf_counter() - start)
         spent = time.perf_counter() - start
         found = solution(
             dense,
@@ -166,6 +157,20 @@ class Qpsolvers:
         )
         self._last = found.x if self.mode == "warm" else None
         return found
+
+    def _answer(self, instance: Instance) -> Any:
+        """What the solver says, without its warnings; whatever it raises."""
+        import qpsolvers
+
+        settings = TIGHT.get(self.name, {}) if self.settings is None else self.settings
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return qpsolvers.solve_problem(
+                instance.problem,
+                solver=self.name,
+                initvals=self._last,
+                **settings,
+            )
 
 
 def _failed(problem: Dense, error: Exception, time_s: float) -> Solution:

@@ -1,12 +1,12 @@
 """Symbols, convex sets and the taking apart of a declaration; pure, on CasADi SX."""
 
+from rrnn_opt.symbolic.convex_set import ConvexSet
 from rrnn_opt.symbolic.degree import require_degree
 from rrnn_opt.symbolic.lagrangian import Lagrangian
 from rrnn_opt.symbolic.qp import QP
 from rrnn_opt.symbolic.sets import (
     Ball,
     Box,
-    ConvexSet,
     Orthant,
     Product,
     whole_space,

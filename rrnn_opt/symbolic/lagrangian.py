@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import casadi as ca
 
+from rrnn_opt.symbolic.convex_set import ConvexSet
 from rrnn_opt.symbolic.qp import QP
-from rrnn_opt.symbolic.sets import Box, ConvexSet, Orthant, Product, whole_space
+from rrnn_opt.symbolic.sets import Box, Orthant, Product, whole_space
 from rrnn_opt.symbolic.symbol import Symbol, require_names
 
 

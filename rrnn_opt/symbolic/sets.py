@@ -8,7 +8,6 @@ is zero exactly when x is in C and y in its normal cone at x.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
@@ -17,72 +16,9 @@ import numpy as np
 
 from rrnn_opt.arguments import checked, require_parts
 from rrnn_opt.errors import RrnnError, ShapeError
-from rrnn_opt.symbolic.pointwise import Truth, clip, is_small, is_symbolic, like
+from rrnn_opt.symbolic.convex_set import ConvexSet
+from rrnn_opt.symbolic.pointwise import clip, is_symbolic, like
 from rrnn_opt.symbolic.symbol import Value, require_shape
-
-
-class ConvexSet(ABC):
-    """A closed convex subset of R^n."""
-
-    @property
-    @abstractmethod
-    def n(self) -> int:
-        """Dimension of the space."""
-
-    @abstractmethod
-    def project(self, x: Value) -> Value:
-        """Nearest point of the set.
-
-        Args:
-            x: point, (n, 1) SX or (n,) array.
-
-        Returns:
-            ``argmin_{y in C} |y - x|``, in the form that ``x`` has.
-
-        Raises:
-            ShapeError: x has another shape.
-        """
-
-    @abstractmethod
-    def support(self, y: Value) -> Value:
-        """Support function ``sup_{x in C} y'x``; may be infinite.
-
-        Args:
-            y: direction, (n, 1) SX or (n,) array.
-        """
-
-    def contains(self, x: Value, *, tolerance: float = 0.0) -> Truth:
-        """Whether ``x`` is in the set.
-
-        Args:
-            x: point, (n, 1) SX or (n,) array.
-            tolerance: allowed distance in every coordinate.
-
-        Returns:
-            A bool for an array; for SX an expression that is 1 or 0.
-        """
-        return is_small(self.project(x) - x, tolerance)
-
-    def normal_cone(self, x: Value, y: Value) -> Value:
-        """``P(x + y) - x``: zero iff x is in C and y in the normal cone N_C(x).
-
-        Args:
-            x: point, (n, 1) SX or (n,) array.
-            y: candidate normal, of the same form.
-        """
-        require_shape(x, (self.n, 1), "point")
-        require_shape(y, (self.n, 1), "normal")
-        return self.project(x + y) - x
-
-    def in_normal_cone(self, x: Value, y: Value, *, tolerance: float = 0.0) -> Truth:
-        """Whether x is in C and ``y'(z - x) <= 0`` for all z in C.
-
-        Args:
-            x: point, (n, 1) SX or (n,) array.
-            y: candidate normal, of the same form.
-            tolerance: allowed size of every element of ``normal_cone(x, y)``.
-        """
-        return is_small(self.normal_cone(x, y), tolerance)
 
 
 @checked(infinite=("lower", "upper"))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import casadi as ca
 
 from rrnn_opt.claim import Claim, Relation
@@ -36,12 +38,10 @@ def case(kinematics: Kinematics) -> ClaimCase:
         hypotheses=(same,),
     )
     regular = added("A1", "det J_A is not 0", det**2, ">0")
-    mended = Claim(
-        id="C3",
-        source="eq. (2)",
+    mended = replace(
+        printed,
         statement="where det J_A is not 0 the joint velocity is unique: "
         "det(J_A) (u - v) = 0",
-        variables=(J, Jy, u, v),
         goal=Relation(det * (u.sx - v.sx), "==0"),
         hypotheses=(same, regular),
     )

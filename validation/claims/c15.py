@@ -53,19 +53,24 @@ def case(kinematics: Kinematics) -> ClaimCase:
         "q": [0] * n, "u": [0] * n, "lam": [0] * 3, "rd": (9, 9, 9), "gain": (1,),
         "low": [-1] * n, "high": [1] * n,
     }  # fmt: skip
+    mended = _moves_together(kinematics, q, u)
+    mutation = Mutation("e - epsilon lam constant", mended, holds=True)
+    found = tuple(_spread(until) for until in (5.0, 20.0))
+    return ClaimCase(printed, mutation, (witness,), Repair(mended), evidence=found)
+
+
+def _moves_together(kinematics: Kinematics, q: Symbol, u: Symbol) -> Claim:
+    """The repaired statement: f(q)' is J u."""
     velocity = ca.jtimes(kinematics.position(), q.sx, u.sx)
-    mended = Claim(
+    return Claim(
         id="C15",
         source="eq. (15)-(16)",
         statement="without noise e - epsilon lam is constant: e moves as lam does",
         variables=(q, u),
-        goal=Relation(-velocity + J @ u.sx, "==0"),
+        goal=Relation(-velocity + kinematics.jacobian() @ u.sx, "==0"),
         order="second-order",
         jacobian="moving",
     )
-    mutation = Mutation("e - epsilon lam constant", mended, holds=True)
-    found = tuple(_spread(until) for until in (5.0, 20.0))
-    return ClaimCase(printed, mutation, (witness,), Repair(mended), evidence=found)
 
 
 def _spread(until: float) -> Evidence:

@@ -35,9 +35,7 @@ def case(kinematics: Kinematics) -> ClaimCase:
         kinematics: not used; the counterexample is an arm of its own.
     """
     c1, s1, c2, s2, k, x, y = scalars("c1 s1 c2 s2 k x y")
-    c12, s12 = c1.sx * c2.sx - s1.sx * s2.sx, s1.sx * c2.sx + c1.sx * s2.sx
-    tip = ca.vertcat(c1.sx + c12, s1.sx + s12)
-    J = ca.vertcat(ca.horzcat(-tip[1], -s12), ca.horzcat(tip[0], c12))
+    tip, J = _arm(c1.sx, s1.sx, c2.sx, s2.sx)
     e = ca.vertcat(x.sx, y.sx) - tip
     high = ca.vertcat(ca.fmin(DECAY * k.sx, SPEED), SPEED)
     velocity = clip(GAIN * (J.T @ e), ca.SX([-SPEED, -SPEED]), high)
@@ -66,6 +64,13 @@ def case(kinematics: Kinematics) -> ClaimCase:
     mended = _trap()
     mutation = Mutation("a box that is never left", mended, holds=True)
     return ClaimCase(printed, mutation, (witness,), Repair(mended))
+
+
+def _arm(c1: ca.SX, s1: ca.SX, c2: ca.SX, s2: ca.SX) -> tuple[ca.SX, ca.SX]:
+    """Tip and Jacobian of two links of 1 m, m and m/rad."""
+    c12, s12 = c1 * c2 - s1 * s2, s1 * c2 + c1 * s2
+    tip = ca.vertcat(c1 + c12, s1 + s12)
+    return tip, ca.vertcat(ca.horzcat(-tip[1], -s12), ca.horzcat(tip[0], c12))
 
 
 def _trap() -> Claim:

@@ -51,14 +51,8 @@ def case(kinematics: Kinematics) -> ClaimCase:
     )
     terms = (Given(0), Given(1, 0, 1 - epsilon.sx * beta.sx), Given(2, 0, -x.sx))
     rule = "Nagumo: a set that a Lipschitz field does not leave at its edge is kept"
-    example: Witness = {
-        "x": [1],
-        "v": [0.5],
-        "P": [0],
-        "c": [0.25],
-        "beta": [0.5],
-        "epsilon": [1],
-    }
+    values = {"x": 1, "v": 0.5, "P": 0, "c": 0.25, "beta": 0.5, "epsilon": 1}
+    example: Witness = {name: [value] for name, value in values.items()}
     proof = Proof(claim, (), (terms,), (rule,), example)
     mutation = Mutation("4 epsilon c of any size", _any_size())
     return ClaimCase(proof, mutation, (), Repair(_first_order()))

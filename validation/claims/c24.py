@@ -66,17 +66,22 @@ def case(kinematics: Kinematics) -> ClaimCase:
         order="discrete",
         jacobian="moving",
     )
-    zero, factor = ca.SX(0), h.sx * epsilon.sx
     given = {"x": x.sx, "s": p, "low": low.sx, "high": high.sx}
-    joints = tuple(
-        Instance(0, {k: v[i] for k, v in given.items()} | {"y": zero}, factor=factor)
-        for i in range(JOINTS)
-    )
+    joints = _projected(given, h.sx * epsilon.sx)
     terms: tuple[Term, ...] = (Given(0), *joints, Given(1, 0, h.sx * size / 2))
     example = {s.name: [0] * s.size for s in claim.variables}
     proof = Proof(claim, (projection(),), (terms,), (), example)
     mutation = Mutation("h = 2.5 epsilon", _longer())
     return ClaimCase(proof, mutation, (), Repair(_curvature()))
+
+
+def _projected(given: dict[str, ca.SX], factor: ca.SX) -> tuple[Instance, ...]:
+    """The lemma on projections with y = 0, once a joint."""
+    zero = ca.SX(0)
+    return tuple(
+        Instance(0, {k: v[i] for k, v in given.items()} | {"y": zero}, factor=factor)
+        for i in range(JOINTS)
+    )
 
 
 def _curvature() -> Claim:

@@ -95,23 +95,17 @@ def _shares(parts: Sequence[tuple[int, int]]) -> tuple[str, str]:
     return _share(sum(p[0] for p in parts), sum(p[1] for p in parts)), _share(*least)
 
 
+_ANSWERS = (
+    *("n", "right", "wrong", "no answer", "of them well"),
+    *("Newton", "x", "multipliers", "KKT"),
+)
+
+
 def _answers_table(table: Rows, by: tuple[str, ...]) -> str:
     sums: dict[tuple[str, ...], AnswerTally] = {}
     for row in table:
         key = tuple(row[name] for name in by)
         add(sums.setdefault(key, AnswerTally()), row)
-    head = (
-        *by,
-        "n",
-        "right",
-        "wrong",
-        "no answer",
-        "of them well",
-        "Newton",
-        "x",
-        "multipliers",
-        "KKT",
-    )
     lines = [
         (
             *key,
@@ -127,7 +121,7 @@ def _answers_table(table: Rows, by: tuple[str, ...]) -> str:
         )
         for key, t in sorted(sums.items())
     ]
-    return _table(head, lines)
+    return _table((*by, *_ANSWERS), lines)
 
 
 def _failures(table: Rows) -> str:

@@ -33,6 +33,13 @@ from rrnn_opt.verification.region.certify import (
 )
 
 
+def _write(found: RegionMap, folder: Path) -> None:
+    """The map as data and as a picture."""
+    document = found.to_dict()
+    write_text(folder / "map.json", json.dumps(document, indent=1) + "\n")
+    draw_region(document, folder / "map.png")
+
+
 def main() -> int:
     """Go on where the last run ended."""
     given = _arguments()
@@ -60,9 +67,7 @@ def main() -> int:
         assumptions_of(law),
         spent,
     )
-    document = found.to_dict()
-    write_text(given.out / "map.json", json.dumps(document, indent=1) + "\n")
-    draw_region(document, given.out / "map.png")
+    _write(found, given.out)
     boxes = sum(cell.boxes for cell in cells)
     sys.stdout.write(
         f"{given.robot}: {100 * found.share:.4g} % certified, {boxes} boxes,"

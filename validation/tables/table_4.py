@@ -127,6 +127,12 @@ def page(rows: Sequence[dict[str, Any]], command: str) -> str:
     return f"{markdown(head, counts)}\n\n## Gain from learning\n\n{gains(rows)}"
 
 
+_GAINS = (
+    *("scenario", "mean totals", "paper", "ours", "95 % interval"),
+    *("cell needs fewer", "cell needs more", "pairs"),
+)
+
+
 def gains(rows: Sequence[dict[str, Any]]) -> str:
     """Paired comparison of the cell with the fair coin, in Markdown."""
     lines = []
@@ -139,29 +145,12 @@ def gains(rows: Sequence[dict[str, Any]]) -> str:
             if len(first) != len(second) or not len(first):
                 continue
             ratio, low, high = gain(first, second)
-            lines.append(
-                (
-                    scenario,
-                    f"{without} / {proposed}",
-                    _printed(scenario) if without == "no-learning" else None,
-                    ratio,
-                    f"{low:.3g} to {high:.3g}",
-                    f"{np.mean(second < first):.1%}",
-                    f"{np.mean(second > first):.1%}",
-                    len(first),
-                )
-            )
-    head = (
-        "scenario",
-        "mean totals",
-        "paper",
-        "ours",
-        "95 % interval",
-        "cell needs fewer",
-        "cell needs more",
-        "pairs",
-    )
-    return markdown(head, lines)
+            printed = _printed(scenario) if without == "no-learning" else None
+            found = (f"{without} / {proposed}", printed, ratio)
+            shares = (np.mean(second < first), np.mean(second > first))
+            words = (f"{low:.3g} to {high:.3g}", *(f"{share:.1%}" for share in shares))
+            lines.append((scenario, *found, *words, len(first)))
+    return markdown(_GAINS, lines)
 
 
 def _printed(scenario: str) -> float:

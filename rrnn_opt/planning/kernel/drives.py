@@ -22,7 +22,7 @@ def emitted_function(
     )
 
 
-def _tip_jacobian(
+def tip_jacobian(
     tree: JointTree, moving: tuple[int, ...], axes: ca.SX, origins: ca.SX, tip: ca.SX
 ) -> ca.SX:
     """Position Jacobian of the tip from the world axes, (3, nv)."""
@@ -63,16 +63,28 @@ def _turn_error(turn: ca.SX, wanted: ca.SX, free: ca.SX) -> tuple[ca.SX, ca.SX]:
 
 def drive_functions(robot: Robot) -> list[ca.Function]:
     """Attractions: to a posture, to a tip position or region, to a tip pose."""
-    tree, nj, nv = robot.tree, robot.tree.nj, robot.nv
+    return [_to_posture(robot.nv), *_to_tip(robot)]
+
+
+def _to_posture(nv: int) -> ca.Function:
+    q, target, length = ca.SX.sym("q", nv), ca.SX.sym("target", nv), ca.SX.sym("length")
+    return emitted_function(
+        "k_drive_joint",
+        {"q": q, "target": target, "length": length},
+        {"w": joint_attraction(q, target, length)},
+    )
+
+
+def _to_tip(robot: Robot) -> list[ca.Function]:
+    """To a position, and to a pose with axes about which the tip may turn freely."""
+    tree, nj = robot.tree, robot.tree.nj
     moving = tree.ancestors(robot.frame().joint)
     axes, origins = ca.SX.sym("axes", 3, nj), ca.SX.sym("origins", 3, nj)
     tip, turn = ca.SX.sym("tip_position", 3), ca.SX.sym("tip_rotation", 3, 3)
     goal, wanted = ca.SX.sym("position", 3), ca.SX.sym("rotation", 3, 3)
-    half, free = ca.SX.sym("half", 3), ca.SX.sym("free", 3)
-    q, target, length = ca.SX.sym("q", nv), ca.SX.sym("target", nv), ca.SX.sym("length")
-    linear = _tip_jacobian(tree, moving, axes, origins, tip)
-    about = wanted @ free
-    angular = _turn_jacobian(tree, moving, axes)
+    half, free, length = ca.SX.sym("half", 3), ca.SX.sym("free", 3), ca.SX.sym("length")
+    linear = tip_jacobian(tree, moving, axes, origins, tip)
+    about, angular = wanted @ free, _turn_jacobian(tree, moving, axes)
     held = angular - about @ (about.T @ angular)
     miss = _miss(goal, wanted, half, tip)
     way = ca.sqrt(ca.sumsqr(miss))
@@ -82,17 +94,9 @@ def drive_functions(robot: Robot) -> list[ca.Function]:
     place = {"position": goal, "rotation": wanted, "half": half}
     return [
         emitted_function(
-            "k_drive_joint",
-            {"q": q, "target": target, "length": length},
-            {"w": joint_attraction(q, target, length)},
-        ),
-        emitted_function(
             "k_drive_position",
             {**frame, **place, "length": length},
-            {
-                "w": tip_attraction(linear, miss, length),
-                "error": ca.vertcat(way, 0),
-            },
+            {"w": tip_attraction(linear, miss, length), "error": ca.vertcat(way, 0)},
         ),
         emitted_function(
             "k_drive_pose",

@@ -20,7 +20,7 @@ from rrnn_opt.planning.problem.attached import (
     with_attached,
 )
 from rrnn_opt.planning.problem.goals import Goal, JointGoal, goal_name, goals_from_data
-from rrnn_opt.robot.builtin import BUILTIN
+from rrnn_opt.planning.problem.named_robot import locked_joints, named_robot
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.scene import fields
 from rrnn_opt.scene.broad import BroadPhase, broad_phase
@@ -121,7 +121,7 @@ class Problem:
         given = fields.record(data, "", required=_REQUIRED, optional=_OPTIONAL)
         optional = ("name", "frame", "spheres")
         texts = {key: fields.text(given[key], key) for key in optional if key in given}
-        locked = _locked(given.get("locked", {}))
+        locked = locked_joints(given.get("locked", {}))
         # what is cheap to refuse is refused before a robot is loaded
         goals = goals_from_data(given["goal"])
         scene = scene_from_list(given.get("obstacles", []), base_dir=base_dir)
@@ -129,7 +129,7 @@ class Problem:
         fields.vector(given["start"], None, "start")
         ref = fields.text(given["robot"], "robot")
         return Problem(
-            _robot(ref, Path(base_dir), texts, locked),
+            named_robot(ref, Path(base_dir), texts, locked),
             given["start"],
             goals=goals,
             scene=scene,
@@ -157,48 +157,6 @@ class Problem:
             "attached": [body.to_dict() for body in self.attached],
             "margin": self.margin,
         }
-
-
-def _robot(
-    ref: str, base: Path, texts: dict[str, str], locked: dict[str, float]
-) -> Robot:
-    if ref in BUILTIN:
-        for key, given in (("spheres", "spheres" in texts), ("locked", bool(locked))):
-            if given:
-                message = f"is for robots from a URDF, and '{ref}' is built in"
-                raise ProblemError(key, message)
-        return Robot.builtin(ref)
-    if not ref.lower().endswith((".urdf", ".xml")) and "/" not in ref:
-        message = f"no robot is called {fields.shown(ref)}"
-        hint = fields.suggestion(ref, BUILTIN)
-        raise ProblemError(
-            "robot", f"{message}; {hint}; or give a path of a .urdf file"
-        )
-    spheres = _file(base, texts["spheres"], "spheres") if "spheres" in texts else None
-    urdf = _file(base, ref, "robot")
-    tip = texts.get("frame")
-    return Robot.from_urdf(urdf, tip=tip, spheres=spheres, locked=locked)
-
-
-def _file(base: Path, ref: str, field: str) -> Path:
-    path = base / ref
-    try:
-        found = path.is_file()
-    except (OSError, ValueError):  # a name that no file can have
-        found = False
-    if not found:
-        raise ProblemError(field, f"there is no file {fields.shown(str(path), 200)}")
-    return path
-
-
-def _locked(data: object) -> dict[str, float]:
-    if not isinstance(data, dict):
-        message = f"expected an object, got {fields.shown(data)}"
-        raise ProblemError("locked", message)
-    return {
-        fields.text(joint, "locked"): fields.number(value, fields.join("locked", joint))
-        for joint, value in data.items()
-    }
 
 
 def _goals(given: object) -> tuple[Any, ...]:

@@ -11,22 +11,13 @@ from rrnn_opt import emit
 from rrnn_opt.formulations.acceleration_limits import acceleration_bounds
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.formulations.signs import Band
-from rrnn_opt.formulations.slide import row
 from rrnn_opt.networks import MemoryCell
+from rrnn_opt.planning.kernel.drives import emitted_function, tip_jacobian
 from rrnn_opt.planning.kernel.source import source
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.robot.bound import ancestor_mask
 
 RUNTIME = ("rollout.c", "rollout_schemes.c", "rollout_search.c", "rollout_api.c")
-
-
-def _tip_rows(robot: Robot, axes: ca.SX, origins: ca.SX, tip: ca.SX) -> ca.SX:
-    """Position Jacobian of the tip, (3, nv), from the world axes."""
-    moving = robot.tree.ancestors(robot.frame().joint)
-    mask = ca.SX([float(k in moving) for k in range(robot.tree.nj)])
-    unit = ca.SX.eye(3)
-    rows = [row(robot.tree, axes, origins, mask, tip, unit[:, a]) for a in range(3)]
-    return ca.densify(ca.vertcat(*rows))
 
 
 def sign_functions(nv: int) -> list[ca.Function]:
@@ -36,26 +27,15 @@ def sign_functions(nv: int) -> list[ca.Function]:
     )
     back = escape < 0
     held = moves * (escape >= 0)
-    cut = [
-        ca.if_else(held, ca.fmax(lower, 0), lower),
-        ca.if_else(back, ca.fmin(upper, 0), upper),
-    ]
-    box = [lower, upper]
+    box = {"lower": lower, "upper": upper}
+    cut = {
+        "least": ca.if_else(held, ca.fmax(lower, 0), lower),
+        "most": ca.if_else(back, ca.fmin(upper, 0), upper),
+    }
+    drive = ca.fmin(ca.fmax(pull, lower), upper)
     return [
-        ca.Function(
-            "k_sign_set",
-            [escape, moves, *box],
-            cut,
-            ["escape", "moves", "lower", "upper"],
-            ["least", "most"],
-        ),
-        ca.Function(
-            "k_clamp",
-            [pull, *box],
-            [ca.fmin(ca.fmax(pull, lower), upper)],
-            ["pull", "lower", "upper"],
-            ["drive"],
-        ),
+        emitted_function("k_sign_set", {"escape": escape, "moves": moves, **box}, cut),
+        emitted_function("k_clamp", {"pull": pull, **box}, {"drive": drive}),
     ]
 
 
@@ -67,37 +47,24 @@ def network_functions(robot: Robot, c1: float, c2: float) -> list[ca.Function]:
     tip, target = ca.SX.sym("tip_position", 3), ca.SX.sym("target", 3)
     epsilon, step = ca.SX.sym("epsilon"), ca.SX.sym("step")
     lower, upper = velocity_bounds(q, robot.limits, c1=c1, c2=c2)
-    J, error = _tip_rows(robot, axes, origins, tip), target - tip
+    moving = robot.tree.ancestors(robot.frame().joint)
+    J = ca.densify(tip_jacobian(robot.tree, moving, axes, origins, tip))
+    error = target - tip
+    frame = {"axes": axes, "origins": origins, "tip_position": tip}
     return [
-        ca.Function(
-            "k_limits",
-            [q],
-            [ca.densify(lower), ca.densify(upper)],
-            ["q"],
-            ["lower", "upper"],
-        ),
-        ca.Function(
+        emitted_function("k_limits", {"q": q}, {"lower": lower, "upper": upper}),
+        emitted_function(
             "k_pull",
-            [axes, origins, tip, target, epsilon],
-            [ca.densify(J.T @ error / epsilon), ca.sqrt(ca.sumsqr(error))],
-            ["axes", "origins", "tip_position", "target", "epsilon"],
-            ["pull", "error"],
+            {**frame, "target": target, "epsilon": epsilon},
+            {"pull": J.T @ error / epsilon, "error": ca.sqrt(ca.sumsqr(error))},
         ),
-        ca.Function(
+        emitted_function(
             "k_relax",
-            [u, drive, epsilon, step],
-            [u + step / epsilon * (drive - u)],
-            ["u", "drive", "epsilon", "step"],
-            ["next"],
+            {"u": u, "drive": drive, "epsilon": epsilon, "step": step},
+            {"next": u + step / epsilon * (drive - u)},
         ),
         # transposed, so that row after row is contiguous in C
-        ca.Function(
-            "k_tip_rows",
-            [axes, origins, tip],
-            [J.T],
-            ["axes", "origins", "tip_position"],
-            ["rows"],
-        ),
+        emitted_function("k_tip_rows", frame, {"rows": J.T}),
     ]
 
 
@@ -114,20 +81,17 @@ def _task_functions() -> list[ca.Function]:
     unit, place = Band(0.0, 1.0), (gap - inner) / (outer - inner)
     error = target - tip
     length = ca.sqrt(ca.sumsqr(error))
+    velocity = error * ca.fmin(gain, speed / ca.fmax(length, 1e-12))
     return [
-        ca.Function(
+        emitted_function(
             "k_attraction",
-            [tip, target, gain, speed],
-            [error * ca.fmin(gain, speed / ca.fmax(length, 1e-12)), length],
-            ["tip", "target", "gain", "speed"],
-            ["velocity", "error"],
+            {"tip": tip, "target": target, "gain": gain, "speed": speed},
+            {"velocity": velocity, "error": length},
         ),
-        ca.Function(
+        emitted_function(
             "k_band",
-            [gap, inner, outer],
-            [unit.share(place), unit.slope(place) / (outer - inner)],
-            ["gap", "inner", "outer"],
-            ["share", "slope"],
+            {"gap": gap, "inner": inner, "outer": outer},
+            {"share": unit.share(place), "slope": unit.slope(place) / (outer - inner)},
         ),
     ]
 
@@ -140,22 +104,16 @@ def _acceleration_functions(robot: Robot) -> list[ca.Function]:
     def drift(point: ca.SX) -> ca.SX:
         """Acceleration of points while the joint velocities stay the same."""
         velocity = ca.jtimes(ca.vec(point), kin.q, qd)
-        return ca.densify(ca.jtimes(velocity, kin.q, qd))
+        return ca.jtimes(velocity, kin.q, qd)
 
+    state = {"q": kin.q, "qd": qd}
+    centres = ca.transpose(kin.sphere_centres())
     return [
-        ca.Function(
-            "k_drift",
-            [kin.q, qd],
-            [drift(kin.position()), drift(ca.transpose(kin.sphere_centres()))],
-            ["q", "qd"],
-            ["tip", "centers"],
+        emitted_function(
+            "k_drift", state, {"tip": drift(kin.position()), "centers": drift(centres)}
         ),
-        ca.Function(
-            "k_acceleration_limits",
-            [kin.q, qd],
-            [ca.densify(lower), ca.densify(upper)],
-            ["q", "qd"],
-            ["lower", "upper"],
+        emitted_function(
+            "k_acceleration_limits", state, {"lower": lower, "upper": upper}
         ),
     ]
 

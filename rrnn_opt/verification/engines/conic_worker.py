@@ -21,10 +21,30 @@ Array = NDArray[Any]
 def solved(job: dict[str, Any]) -> tuple[float, list[float]] | None:
     """The least eigenvalue t and all numbers x; None without a solution."""
     clarabel: Any = importlib.import_module("clarabel")
+    rows, right, cones = _programme(job, clarabel)
+    size = rows.shape[1]
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.max_threads = 1
+    solver = clarabel.DefaultSolver(
+        sparse.csc_matrix((size, size)),
+        np.append(np.zeros(size - 1), -1.0),
+        rows,
+        right,
+        cones,
+        settings,
+    )
+    solution = solver.solve()
+    if str(solution.status) not in ("Solved", "AlmostSolved", "InsufficientProgress"):
+        return None
+    return float(solution.x[-1]), [float(v) for v in solution.x[:-1]]
+
+
+def _programme(job: dict[str, Any], clarabel: Any) -> tuple[Any, Any, list[Any]]:
+    """Rows, right-hand side, cones: equations, X_k - t I >= 0, x - t >= 0, t <= 1."""
     (equations, count), positive = job["shape"], job["positive"]
     place = (job["row"], job["column"])
     rows = [sparse.csc_array((job["data"], place), shape=(equations, count + 1))]
-    right = [np.array(job["right"])]
     cones = [clarabel.ZeroConeT(equations)]
     start = 0
     for size in job["sizes"]:
@@ -34,7 +54,6 @@ def solved(job: dict[str, Any]) -> tuple[float, list[float]] | None:
         block[np.arange(len(scale)), where] = -scale
         block[np.flatnonzero(diagonal), count] = 1.0
         rows.append(block.tocsc())
-        right.append(np.zeros(len(scale)))
         cones.append(clarabel.PSDTriangleConeT(size))
         start += len(scale)
     last = sparse.lil_array((positive + 1, count + 1))
@@ -42,21 +61,9 @@ def solved(job: dict[str, Any]) -> tuple[float, list[float]] | None:
         last[k, start + k], last[k, count] = -1.0, 1.0
     last[positive, count] = 1.0
     rows.append(last.tocsc())
-    right.append(np.append(np.zeros(positive), 1.0))
     cones.append(clarabel.NonnegativeConeT(positive + 1))
-    cost = np.append(np.zeros(count), -1.0)
-    settings = clarabel.DefaultSettings()
-    settings.verbose = False
-    settings.max_threads = 1
-    zero = sparse.csc_matrix((count + 1, count + 1))
-    table = sparse.csc_matrix(sparse.vstack(rows))
-    solver = clarabel.DefaultSolver(
-        zero, cost, table, np.concatenate(right), cones, settings
-    )
-    solution = solver.solve()
-    if str(solution.status) not in ("Solved", "AlmostSolved", "InsufficientProgress"):
-        return None
-    return float(solution.x[-1]), [float(v) for v in solution.x[:-1]]
+    right = np.concatenate([job["right"], np.zeros(start + positive), [1.0]])
+    return sparse.csc_matrix(sparse.vstack(rows)), right, cones
 
 
 def triangle(size: int) -> tuple[Array, Array]:
