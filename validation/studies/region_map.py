@@ -40,6 +40,16 @@ def _write(found: RegionMap, folder: Path) -> None:
     draw_region(document, folder / "map.png")
 
 
+def _told(found: RegionMap) -> str:
+    """One line for the terminal."""
+    boxes = sum(cell.boxes for cell in found.cells)
+    return (
+        f"{found.robot}: {100 * found.share:.4g} % certified, {boxes} boxes,"
+        f" sigma >= {found.sigma:.4g} m, alpha >= {found.rate:.4g} 1/s,"
+        f" step <= {found.step:.4g} s; {found.time_s:.1f} s in this run\n"
+    )
+
+
 def main() -> int:
     """Go on where the last run ended."""
     given = _arguments()
@@ -68,12 +78,7 @@ def main() -> int:
         spent,
     )
     _write(found, given.out)
-    boxes = sum(cell.boxes for cell in cells)
-    sys.stdout.write(
-        f"{given.robot}: {100 * found.share:.4g} % certified, {boxes} boxes,"
-        f" sigma >= {found.sigma:.4g} m, alpha >= {found.rate:.4g} 1/s,"
-        f" step <= {found.step:.4g} s; {spent:.1f} s in this run\n"
-    )
+    sys.stdout.write(_told(found))
     return 0
 
 
