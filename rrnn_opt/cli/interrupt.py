@@ -92,7 +92,9 @@ def _handling(handler: Handler) -> Iterator[None]:
         if threading.current_thread() is threading.main_thread():
             for name in ENDING:
                 number = getattr(signal, name, None)
-                before = number and signal.getsignal(number)
+                if number is None:
+                    continue
+                before = signal.getsignal(number)
                 if before not in (None, signal.SIG_IGN):
                     stack.callback(signal.signal, number, before)
                     signal.signal(number, handler)

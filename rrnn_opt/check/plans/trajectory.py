@@ -22,7 +22,8 @@ from rrnn_opt.check.plans.inputs import read_motion, read_scene
 from rrnn_opt.check.plans.limits import prove_limits
 from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.reading import Array
-from rrnn_opt.check.plans.robot.model import Model, read_model
+from rrnn_opt.check.plans.robot.block import read_model
+from rrnn_opt.check.plans.robot.model import Model
 from rrnn_opt.errors import DocumentError
 
 METHOD = (

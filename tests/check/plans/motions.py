@@ -4,7 +4,7 @@ import numpy as np
 
 from rrnn_opt.check import certify_trajectory
 from rrnn_opt.check.plans.robot import kinematics
-from rrnn_opt.check.plans.robot.model import read_model
+from rrnn_opt.check.plans.robot.block import read_model
 from rrnn_opt.motion import stop_and_go
 
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from rrnn_opt.check.plans.goal import nearest_goal
-from rrnn_opt.check.plans.robot.model import read_model
+from rrnn_opt.check.plans.robot.block import read_model
 from rrnn_opt.errors import DocumentError
 
 Q = np.array([0.3, 0.4])

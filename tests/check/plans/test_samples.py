@@ -4,7 +4,7 @@ import coal
 import numpy as np
 import pytest
 
-from rrnn_opt.check.plans.robot.model import read_model
+from rrnn_opt.check.plans.robot.block import read_model
 from rrnn_opt.motion import Trajectory
 from rrnn_opt.robot import Robot
 from tests.check.plans.motions import centres_at, judge, swing

@@ -9,7 +9,7 @@ import pytest
 
 from rrnn_opt.check import certify_trajectory
 from rrnn_opt.check.plans.robot import kinematics
-from rrnn_opt.check.plans.robot.model import read_model
+from rrnn_opt.check.plans.robot.block import read_model
 from rrnn_opt.errors import DocumentError
 from rrnn_opt.motion import Trajectory
 from tests.check.plans.motions import box, centres_at, judge, swing

@@ -8,7 +8,7 @@ import pytest
 
 import rrnn_opt as rr
 from rrnn_opt.check.plans.goal import nearest_goal
-from rrnn_opt.check.plans.robot.model import read_model
+from rrnn_opt.check.plans.robot.block import read_model
 from rrnn_opt.planning import Problem
 from rrnn_opt.planning.kernel.drives import drive_functions
 from rrnn_opt.planning.problem.goals import TipGoal, goals_from_data

@@ -12,7 +12,7 @@ from rrnn_opt.check.plans.exact.robot import PRECISION, length, nearest_rotation
 from rrnn_opt.check.plans.exact.scene import BallScene
 from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.reading import polished
-from rrnn_opt.check.plans.robot.model import read_model
+from rrnn_opt.check.plans.robot.block import read_model
 
 TURN = (np.array([1.0, 2.0, -3.0, 1.5]) / np.linalg.norm([1, 2, -3, 1.5])).tolist()
 PLACED = {"position": [0.4, -0.3, 0.6], "quat_xyzw": TURN}

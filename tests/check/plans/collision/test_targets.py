@@ -9,7 +9,7 @@ from rrnn_opt.check.plans.collision.boxes import Boxes, poses
 from rrnn_opt.check.plans.collision.parts import Parts
 from rrnn_opt.check.plans.motion import Motion
 from rrnn_opt.check.plans.robot import kinematics
-from rrnn_opt.check.plans.robot.model import read_model
+from rrnn_opt.check.plans.robot.block import read_model
 
 TURN = (np.array([1.0, 2.0, -3.0, 1.5]) / np.linalg.norm([1, 2, -3, 1.5])).tolist()
 OBSTACLES = [

@@ -14,7 +14,7 @@ from rrnn_opt.check.plans.exact.cover import tiled
 from rrnn_opt.check.plans.exact.recheck import recheck
 from rrnn_opt.check.plans.exact.scene import BallScene
 from rrnn_opt.check.plans.inputs import read_motion, read_scene
-from rrnn_opt.check.plans.robot.model import read_model
+from rrnn_opt.check.plans.robot.block import read_model
 from rrnn_opt.motion import Trajectory, stop_and_go
 from rrnn_opt.robot import Robot
 

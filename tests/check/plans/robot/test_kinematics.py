@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 
 from rrnn_opt.check.plans.robot import kinematics
-from rrnn_opt.check.plans.robot.model import read_model
+from rrnn_opt.check.plans.robot.block import read_model
 
 TYPES = {
     "revolute": pin.JointModelRevoluteUnaligned,

@@ -3,7 +3,7 @@ import copy
 import numpy as np
 import pytest
 
-from rrnn_opt.check.plans.robot.model import read_model
+from rrnn_opt.check.plans.robot.block import read_model
 from rrnn_opt.errors import DocumentError
 
 

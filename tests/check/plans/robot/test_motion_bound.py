@@ -3,7 +3,7 @@
 import numpy as np
 
 from rrnn_opt.check.plans.robot import kinematics
-from rrnn_opt.check.plans.robot.model import read_model
+from rrnn_opt.check.plans.robot.block import read_model
 from rrnn_opt.check.plans.robot.motion_bound import (
     motion_bound,
     reach_table,
