@@ -28,7 +28,8 @@ from rrnn_opt.validation.ending import ended
 HERE = Path(__file__).parents[2]
 RESULTS = HERE / "runs" / "branches"
 READERS = [
-    "arguments",
+    "arguments/kinds",
+    "arguments/checked",
     "files",
     "robot/urdf",
     "robot/urdf_shapes",

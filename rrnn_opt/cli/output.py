@@ -17,9 +17,10 @@ class UsageError(RrnnError):
     """The command line itself is wrong."""
 
 
-def _printable(text: str) -> str:
-    """Text that every terminal takes: names may hold halves of characters."""
-    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+def _printable(text: str, stream: Any) -> str:
+    """Text that a terminal takes: names may hold letters that it lacks, or halves."""
+    code = getattr(stream, "encoding", None) or "utf-8"
+    return text.encode(code, "backslashreplace").decode(code)
 
 
 class Output:
@@ -46,14 +47,14 @@ class Output:
     def say(self, text: str = "") -> None:
         """A line for people; with ``--json`` it goes to standard error."""
         try:
-            print(_printable(text), flush=True)
+            print(_printable(text, sys.stdout), flush=True)
         except BrokenPipeError:
             silence(1)
 
     def note(self, text: str) -> None:
         """A line about the run itself, always to standard error."""
         with contextlib.suppress(OSError):
-            print(_printable(text), file=sys.stderr, flush=True)
+            print(_printable(text, sys.stderr), file=sys.stderr, flush=True)
 
     def document(self, document: dict[str, Any]) -> None:
         """The result as JSON, whole; nothing happens without ``--json``.

@@ -29,7 +29,7 @@ from rrnn_opt.report.palette import (
     TREES,
     time_colours,
 )
-from rrnn_opt.report.save import save
+from rrnn_opt.report.save import drawable, save
 from rrnn_opt.report.stage import drawn
 
 Array = NDArray[np.float64]
@@ -205,12 +205,12 @@ def _tint(role: str, colour: Any) -> Any:
 
 
 def _title(figure: Any, document: dict[str, Any], drawing: Drawing) -> None:
-    name = _drawable(document["robot"].get("name", "robot"))
+    name = drawable(document["robot"].get("name", "robot"))
     proof = document.get("certificate") or {}
-    said = [_drawable(document.get(key, "")) for key in ("status", "planner")]
+    said = [drawable(document.get(key, "")) for key in ("status", "planner")]
     for key in ("collision_free", "limits"):
         if proof.get(key):
-            said.append(f"{key.replace('_', ' ')}: {_drawable(proof[key])}")
+            said.append(f"{key.replace('_', ' ')}: {drawable(proof[key])}")
     figure.text(
         0.02, 0.955, name, fontsize=15, weight="bold", color=INK, parse_math=False
     )
@@ -223,11 +223,6 @@ def _title(figure: Any, document: dict[str, Any], drawing: Drawing) -> None:
         parse_math=False,
     )
     draw_key(figure, drawing)
-
-
-def _drawable(value: object, longest: int = 60) -> str:
-    """A short text that a font can draw."""
-    return str(value)[:longest].encode("utf-8", "replace").decode()
 
 
 def _places(count: int) -> list[tuple[float, float, float, float]]:

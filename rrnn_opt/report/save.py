@@ -17,3 +17,8 @@ def save(figure: Any, file: Any, **how: Any) -> None:
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
         figure.savefig(file, **how)
+
+
+def drawable(value: object, longest: int = 60) -> str:
+    """A short text that a font can draw: halves of characters become ``?``."""
+    return str(value)[:longest].encode("utf-8", "replace").decode()

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from rrnn_opt.errors import ProblemError
 from rrnn_opt.report import mesh
 from rrnn_opt.report.mesh import Mesh
+from rrnn_opt.report.save import drawable
 from rrnn_opt.scene.shapes import Box, Capsule, Cylinder, HalfSpace, Obstacle, Sphere
 
 Array = NDArray[np.float64]
@@ -81,7 +82,7 @@ def obstacles_of(document: dict[str, Any]) -> tuple[list[Obstacle], list[str]]:
         try:
             shapes.append(SHAPES[kind](**values))
         except (KeyError, TypeError, ProblemError):
-            others.append(f"{entry.get('name', '?')} ({kind})")
+            others.append(drawable(f"{entry.get('name', '?')} ({kind})"))
     return shapes, others
 
 

@@ -15,7 +15,7 @@ import time
 
 import pytest
 
-from tests.faults.conftest import furnished, whole
+from benchmarks.faults.place import contents, furnished, whole
 
 ROUNDS = int(os.environ.get("RRNN_FAULTS", "1"))
 CLI, DEADLY = "rrnn_opt.cli.start", "benchmarks.faults.deadly"
@@ -30,28 +30,6 @@ def sample(count, size, seed):
     inner = range(2, count)
     drawn = random.Random(seed).sample(inner, min(size - 2, len(inner)))
     return sorted({1, count, *drawn})
-
-
-def settled(document):
-    """A document without what differs from run to run."""
-    if isinstance(document, dict):
-        kept = {k: v for k, v in document.items() if not k.endswith("_s")}
-        return {k: settled(v) for k, v in kept.items()}
-    return [settled(v) for v in document] if isinstance(document, list) else document
-
-
-def contents(place):
-    """What all result files say, times set aside."""
-    found = {}
-    for name in place.files():
-        path = place.out / name
-        if path.suffix == ".json":
-            found[name] = settled(json.loads(path.read_text()))
-        elif path.suffix not in (".html", ".png"):
-            found[name] = path.read_bytes()
-        else:
-            found[name] = "picture"
-    return found
 
 
 @pytest.mark.slow

@@ -8,7 +8,9 @@ from hypothesis import strategies as st
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulations import (
     clearance_rows,
+    gradient_projection,
     joint_sign_sets,
+    method2,
     position_feedback,
     sign_rows,
     slack_task,
@@ -204,3 +206,15 @@ def test_sign_rows_stand_only_while_a_contact_is_critical(every):
     assert not far.G.any()
     assert not close.h.any()
     assert not far.h.any()
+
+
+@pytest.mark.parametrize(
+    "scheme", [sign_rows, gradient_projection, method2, clearance_rows]
+)
+def test_contacts_may_be_an_array(planar3, scheme):
+    chosen = [last(planar3)] * 2
+    wanted = [p.name for p in scheme(planar3, contacts=chosen).parameters]
+    found = scheme(planar3, contacts=np.array(chosen)).parameters
+    assert [p.name for p in found] == wanted
+    none = scheme(planar3, contacts=np.array([], dtype=int)).parameters
+    assert len(none) == len(scheme(planar3).parameters) < len(wanted)

@@ -62,3 +62,16 @@ def test_names_of_a_document_are_not_read_as_formulas(every_shape):
     every_shape["robot"]["name"] = "a_$b^{$"
     every_shape["robot"]["joint_names"] = ["$x", "_y", "z$"]
     assert picture(every_shape)[:4] == b"\x89PNG"
+
+
+def test_names_that_no_font_has_are_drawn_somehow(every_shape):
+    names = ["\ud800", "a\0b", "$\\frac{", "機\u202ex", "x" * 3000]
+    box = {"size": [1.0] * 3, "position": [9.0] * 3}
+    document = {
+        **every_shape,
+        "robot": {**every_shape["robot"], "name": "".join(names)},
+    }
+    obstacles = [{"name": name, "type": "box", **box} for name in names]
+    obstacles += [{"name": "odd", "type": name, **box} for name in names]
+    document["problem"] = {**every_shape["problem"], "obstacles": obstacles}
+    assert picture(document).startswith(b"\x89PNG")

@@ -263,3 +263,9 @@ def test_a_run_begins_where_the_network_says(form, posture):
     x, info = settle(law, q=posture, rd_dot=np.zeros(3), tolerance=1e-12)
     np.testing.assert_allclose(x, 0.1)
     assert info.steps == 0
+
+
+@pytest.mark.parametrize("start", [[], [0.0], np.zeros((2, 2)), np.zeros(1000)])
+def test_a_start_that_is_no_state_of_the_network_is_refused(form, network, start):
+    with pytest.raises(ShapeError, match="start"):
+        settle(network, start=start, q=np.zeros(7), rd_dot=np.zeros(3))

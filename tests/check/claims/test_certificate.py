@@ -286,3 +286,12 @@ def test_an_operation_with_too_few_operands_proves_nothing(method):
     checked = check_certificate(document)
     assert checked.status == "UNKNOWN"
     assert "operation 'mul'" in checked.reason
+
+
+@pytest.mark.parametrize("slot", [[], [0], [0, 0, 0], 0, "ab", ["a", "b"], {"0": 1}])
+def test_a_slot_is_a_port_and_an_element(slot):
+    document = copy.deepcopy(certificate_document(claim(IDENTITY), "identity"))
+    tape = document["claim"]["tape"]
+    tape[0][-1] = slot
+    with pytest.raises(DocumentError):
+        check_certificate(document)
