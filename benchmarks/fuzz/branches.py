@@ -48,6 +48,7 @@ READERS = [
     "check/plans/inputs",
     "check/plans/goal",
     "check/plans/robot/model",
+    "check/plans/robot/block",
     "check/plans/collision/scene",
     "check/plans/solids/files",
     "check/plans/solids/cloud",
