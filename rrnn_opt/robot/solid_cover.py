@@ -3,10 +3,10 @@
 A part of the surface is held by a ball about its corners: the smallest one, or
 one whose centre lies deeper in the solid, which is larger but bulges less (for a
 flat part of radius s by s^2 / 2t at depth t).  A ball is convex, so it holds the
-triangles too.  The part whose ball bulges most out of
-the solid is cut in two by a plane across one of its principal axes, whichever
-leaves the smaller bulge (triangles on the plane are clipped, so nothing is
-lost), until no ball bulges by more than is wanted or there are enough of them.
+triangles too.  The part whose ball bulges most out of the solid is cut in two by a
+plane across one of its principal axes, whichever leaves the smaller bulge
+(triangles on the plane are clipped to polygons, so nothing is lost), until no ball
+bulges by more than is wanted or there are enough of them.
 """
 
 from __future__ import annotations
@@ -27,6 +27,8 @@ so that the surface can be shown to be covered by cutting triangles finitely."""
 DEPTHS = (0.0, 0.5, 1.0, 2.0)
 """How deep a ball's centre is tried, times the radius of the smallest ball."""
 _SAMPLES = 6000
+_FLAT = 1e-9
+"""Extent along an axis, of the largest, that is rounding: there is no middle."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +52,8 @@ class Part:
     """A piece of a surface and the ball that holds it.
 
     Attributes:
-        corners: of its triangles, (t, 3, 3), m.
+        corners: of its convex polygons, (t, k, 3), m; triangles as long as they
+            are not cut, the last corner repeated where there are fewer than k.
         center: of the ball, (3,), m.
         radius: m.
         bulge: how far the ball is seen to come out of the solid, m.
@@ -165,9 +168,9 @@ def _part(
 
 
 def _inwards(corners: Array) -> Array:
-    """Mean inward normal of triangles, (3,); shorter where they turn."""
-    a, b, c = (corners[:, k] for k in range(3))
-    across = np.cross(b - a, c - a)
+    """Mean inward normal of polygons, (3,); shorter where they turn."""
+    spokes = corners - corners[:, :1]
+    across = np.cross(spokes[:, 1:-1], spokes[:, 2:]).sum(axis=1)
     area = float(np.linalg.norm(across, axis=1).sum())
     return np.asarray(-across.sum(axis=0) / max(area, 1e-300))
 
@@ -180,6 +183,8 @@ def halves(
 ) -> list[Part]:
     """Both sides of the best plane across the middle of a principal axis.
 
+    A part that is a point stays whole.
+
     Args:
         part: to be cut.
         surface: that it belongs to.
@@ -191,9 +196,10 @@ def halves(
     points = corners.reshape(-1, 3)
     middle = points - points.mean(axis=0)
     axes = np.linalg.eigh(middle.T @ middle)[1]
-    best: list[Part] = []
+    extent = np.ptp(middle @ axes, axis=0)
+    best: list[Part] = [part]
     least = (np.inf, np.inf)
-    for axis in axes.T:
+    for axis in axes.T[extent > _FLAT * extent.max()]:
         found = [_part(side, surface, burden, most) for side in _cut(corners, axis)]
         cost = _cost(found)
         if burden is not None:
@@ -209,28 +215,40 @@ def _cost(parts: list[Part]) -> tuple[float, float]:
 
 
 def _cut(corners: Array, axis: Array) -> list[Array]:
-    """Triangles on both sides of the plane across the middle of an axis."""
+    """Polygons on both sides of the plane across the middle of an axis."""
     spread = corners @ axis
     height = spread - 0.5 * (spread.min() + spread.max())
     below, above = np.all(height <= 0.0, axis=1), np.all(height >= 0.0, axis=1)
-    sides = [[corners[below]], [corners[above & ~below]]]
     crossed = ~below & ~above
-    for triangle, h in zip(corners[crossed], height[crossed], strict=True):
-        for side, sign in enumerate((-1.0, 1.0)):
-            sides[side].append(_clipped(triangle, sign * h))
-    joined = [np.concatenate(side) for side in sides]
-    return [side for side in joined if len(side)]
+    sides = []
+    for whole, sign in ((below, -1.0), (above & ~below, 1.0)):
+        both = zip(corners[crossed], sign * height[crossed], strict=True)
+        sides.append(_joined(corners[whole], [_clipped(*each) for each in both]))
+    return [side for side in sides if len(side)]
 
 
-def _clipped(triangle: Array, height: Array) -> Array:
-    """Triangles of the part of one (3, 3) where the height is not negative."""
+def _clipped(polygon: Array, height: Array) -> Array:
+    """Corners (k, 3) of the part of a polygon where the height is not negative."""
+    fresh = np.any(polygon != np.roll(polygon, 1, axis=0), axis=1)
+    corners, height = polygon[fresh], height[fresh]
     kept: list[Array] = []
-    for k in range(3):
-        a, b = height[k], height[k - 2]
-        if a >= 0.0:
-            kept.append(triangle[k])
+    for k in range(len(corners)):
+        a, b = height[k], height[k - 1]
         if a * b < 0.0:
-            share = a / (a - b)
-            kept.append(triangle[k] + share * (triangle[k - 2] - triangle[k]))
-    fan = [[kept[0], kept[i], kept[i + 1]] for i in range(1, len(kept) - 1)]
-    return np.array(fan).reshape(-1, 3, 3)
+            kept.append(corners[k] + a / (a - b) * (corners[k - 1] - corners[k]))
+        if a >= 0.0:
+            kept.append(corners[k])
+    return np.array(kept)
+
+
+def _joined(polygons: Array, more: list[Array]) -> Array:
+    """All polygons in one array, the last corner of the shorter ones repeated.
+
+    A polygon that is cut stays one: it has a corner more at most.  Triangles would
+    double in number with each further cut along the same axis.
+    """
+    width = max([polygons.shape[1], *map(len, more)])
+    last = np.arange(width)
+    padded = [each[np.minimum(last, len(each) - 1)][None] for each in more]
+    wide = polygons[:, np.minimum(last, polygons.shape[1] - 1)]
+    return np.concatenate([wide, *padded])
