@@ -23,7 +23,7 @@ from rrnn_opt.planning.search.feasibility import (
     blocked,
     open_goals,
 )
-from rrnn_opt.planning.search.library import Runtime, Search
+from rrnn_opt.planning.search.library import SLICE_S, Runtime, Search
 from rrnn_opt.planning.search.refine import length, refine
 from rrnn_opt.planning.search.request import pack
 from rrnn_opt.planning.search.trees import tree_document
@@ -34,7 +34,6 @@ from rrnn_opt.planning.settings.rollout import SingleRollout
 
 Array = NDArray[np.float64]
 Progress = Callable[[str, int], None]
-SLICE_S = 0.02
 DEFAULT_EXPLORATIONS = 20_000
 
 
@@ -137,11 +136,13 @@ def _search(
     limit = np.inf if time_limit is None else time_limit
     status = "paused"
     try:
-        while status == "paused":
+        while status in ("paused", "cancelled"):
             left = limit - (time.perf_counter() - begin)
             if left <= 0.0:
                 return "time_limit"
-            status = search.run(budget, min(SLICE_S, left))
+            if status == "cancelled":  # by a Ctrl-C that its handler did not raise
+                raise KeyboardInterrupt
+            status = search.run(budget, min(SLICE_S, left), left)
             if on_progress is not None:
                 counts = search.counts()
                 on_progress("plan", counts.random + counts.heuristic)

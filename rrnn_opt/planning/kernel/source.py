@@ -24,6 +24,7 @@ from rrnn_opt.scene.distance import PRIMITIVES, distance_function
 RUNTIME = (
     "rng.h",
     "types.h",
+    "cancel.c",
     "memory.c",
     "broad.c",
     "blocks.c",

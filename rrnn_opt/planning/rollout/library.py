@@ -109,13 +109,13 @@ class RolloutSearch(Search):
         function = self._runtime.function(name, result, ct.c_void_p, *types)
         return function(self._rollouts, *args)
 
-    def run(self, budget: int, slice_s: float) -> str:
-        """Explore on; "paused" after ``slice_s`` seconds.
+    def run(self, budget: int, slice_s: float, limit_s: float = np.inf) -> str:
+        """Explore on; "paused" after ``slice_s`` or ``limit_s`` seconds.
 
         Raises:
             RrnnError: out of memory.
         """
-        types = (ct.c_int64, ct.c_double)
+        types, slice_s = (ct.c_int64, ct.c_double), min(slice_s, limit_s)
         code = int(self._rolled("rollouts_run", ct.c_int32, types, budget, slice_s))
         if code not in STATUS:
             raise RrnnError("planner: out of memory; lower the exploration budget")

@@ -88,6 +88,7 @@ RRNN_EXPORT planner_t *NAME(create)(const settings_t *settings, const request_t 
     planner->tip_count = request->tip_goal_count;
     planner->activity = settings->coin >= 0.0 ? settings->coin : 0.0;
     planner->done[0] = planner->done[1] = -1;
+    planner->deadline = NEVER;
     memcpy(planner->lower, request->lower, sizeof planner->lower);
     memcpy(planner->upper, request->upper, sizeof planner->upper);
     memcpy(planner->sample_lower, request->sample_lower, sizeof planner->lower);
@@ -107,20 +108,39 @@ RRNN_EXPORT planner_t *NAME(create)(const settings_t *settings, const request_t 
     return planner;
 }
 
-/* Goal postures first (once), then the search. */
-RRNN_EXPORT int32_t NAME(run)(planner_t *planner, int64_t budget, double slice)
+/* Whether Ctrl-C ends the calls below: for the one thread that handles signals. */
+RRNN_EXPORT void NAME(interruptible)(planner_t *planner, int32_t yes)
 {
-    if (planner->tree[1].count == 0 && planner->ik_failures == 0 &&
-        !first_root(planner)) {
-        return planner->out_of_memory ? NO_MEMORY : NO_POSTURE;
+    planner->interruptible = yes;
+}
+
+/* Goal postures first, then the search; cancelled when `limit` seconds are over. */
+RRNN_EXPORT int32_t NAME(run)(planner_t *planner, int64_t budget, double slice,
+                              double limit)
+{
+    const double begin = seconds(), end = begin + slice;
+    watch_t watch;
+    planner->cancelled = 0;
+    planner->deadline = begin + limit;
+    watch_begin(&watch, planner);
+    plan_status_t status = first_root(planner, end);
+    if (status == SOLVED) {
+        status = search(planner, budget, end);
     }
-    return (int32_t)search(planner, budget, slice);
+    watch_end(&watch);
+    planner->deadline = NEVER;
+    return (int32_t)status;
 }
 
 RRNN_EXPORT int32_t NAME(segment_free)(planner_t *planner, const double *from,
                                   const double *to, double clearance)
 {
-    return segment_free(planner, from, to, clearance);
+    watch_t watch;
+    planner->cancelled = 0;
+    watch_begin(&watch, planner);
+    const int32_t verdict = segment_free(planner, from, to, clearance);
+    watch_end(&watch);
+    return verdict;
 }
 
 /* Which of the postures keep every promised clearance? */
@@ -189,7 +209,11 @@ RRNN_EXPORT int32_t NAME(shorten)(planner_t *planner, const double *path,
     free(planner->path);
     planner->path = copy;
     planner->path_count = count;
+    watch_t watch;
+    planner->cancelled = 0;
+    watch_begin(&watch, planner);
     shorten(planner, attempts);
+    watch_end(&watch);
     return !planner->out_of_memory;
 }
 

@@ -64,12 +64,16 @@ static int inverse_kinematics(const planner_t *planner, const tip_goal_t *tip,
     return 0;
 }
 
-/* Is the posture free, with every promised margin and the slack? */
+/* Is the posture free, with every promised margin and the slack?  Most that are
+ * not are found by their first collision, before all pairs within reach are. */
 static int is_free(planner_t *planner, const double *q)
 {
     pose_t pose;
     const double none[NV] = {0};
     pose_at(q, &pose);
+    if (world_hit(&planner->world, &pose)) {
+        return 0;
+    }
     double radius = planner->set.max_step;
     world_reset(&planner->world);
     if (!world_near_within(&planner->world, &pose, &radius)) {
@@ -101,12 +105,25 @@ static int find_root(planner_t *planner, const double *seed)
     return add_node(planner, 1, q, -1, 0, 0) >= 0;
 }
 
-/* The first goal posture, within ik_tries draws. */
-static int first_root(planner_t *planner)
+/* The first goal posture: from the start, then within ik_tries draws.  PAUSED when
+ * the clock shows `end`: call again; pausing changes nothing of what is found. */
+static plan_status_t first_root(planner_t *planner, double end)
 {
-    find_root(planner, planner->tree[0].nodes[0].q);
-    for (int32_t i = 0; i < planner->set.ik_tries && planner->roots == 0; i++) {
-        find_root(planner, NULL);
+    while (planner->tree[1].count == 0) {
+        if (planner->root_tries > planner->set.ik_tries) {
+            return NO_POSTURE;
+        }
+        find_root(planner, planner->root_tries++ == 0 ? planner->tree[0].nodes[0].q
+                                                      : NULL);
+        if (planner->out_of_memory) {
+            return NO_MEMORY;
+        }
+        if (cancelled(planner)) {
+            return CANCELLED;
+        }
+        if (seconds() > end) {
+            return PAUSED;
+        }
     }
-    return planner->roots > 0;
+    return SOLVED;
 }

@@ -120,13 +120,6 @@ static int heuristic_turn(planner_t *planner)
                          : connect(planner, 0, pair.a, pair.b);
 }
 
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Chooses between a random and a heuristic turn, and takes it.  Late choices are in
  * turn made without the steering margin, which would close narrower passages. */
 static int take_turn(planner_t *planner)
@@ -141,11 +134,11 @@ static int take_turn(planner_t *planner)
     return found;
 }
 
-/* Explores until a path is found, the budget is spent, or `slice` seconds are
- * over (PAUSED: call again; pausing changes nothing of what is found). */
-static plan_status_t search(planner_t *planner, int64_t budget, double slice)
+/* Explores until a path is found, the budget is spent, or the clock shows `end`
+ * (PAUSED: call again; pausing changes nothing of what is found), or until it is
+ * cancelled, which does. */
+static plan_status_t search(planner_t *planner, int64_t budget, double end)
 {
-    const double begin = seconds();
     planner->budget = budget;
     while (!planner->out_of_memory) {
         if (planner->random + planner->heuristic >= budget) {
@@ -154,7 +147,10 @@ static plan_status_t search(planner_t *planner, int64_t budget, double slice)
         if (take_turn(planner) && trace_path(planner)) {
             return SOLVED;
         }
-        if (seconds() - begin > slice) {
+        if (cancelled(planner)) {
+            return CANCELLED;
+        }
+        if (seconds() > end) {
             return PAUSED;
         }
     }

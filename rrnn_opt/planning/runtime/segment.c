@@ -51,7 +51,8 @@ static int pieces_free(planner_t *planner, const double *from, const double *to)
             h[k] = 0.5 * (b - a) * way;
         }
         const int verdict = piece_verdict(planner, middle, h);
-        if (verdict < 0 || (verdict == 0 && depth >= SEGMENT_DEPTH)) {
+        if (verdict < 0 || (verdict == 0 && depth >= SEGMENT_DEPTH) ||
+            cancelled(planner)) {
             return 0;
         }
         if (verdict == 0) {

@@ -57,7 +57,8 @@ static int32_t splice(planner_t *planner, int32_t count, int32_t i, const double
 static void shorten(planner_t *planner, int32_t attempts)
 {
     double total = path_length(planner->path, planner->path_count);
-    for (int32_t n = 0; n < attempts && planner->path_count > 1; n++) {
+    for (int32_t n = 0; n < attempts && planner->path_count > 1 &&
+                        !cancelled(planner); n++) {
         const double x = total * rng_uniform(&planner->rng);
         const double y = total * rng_uniform(&planner->rng);
         const double from = x < y ? x : y, to = x < y ? y : x;

@@ -101,6 +101,9 @@ static slide_end_t slide(planner_t *planner, const double *from,
     world_reset(&planner->world);
     for (int32_t step = 0; step < set->max_slide_steps; step++) {
         int arrived;
+        if (step % POLL_STEPS == 0 && cancelled(planner)) {
+            return EXHAUSTED;
+        }
         pose_at(q, &pose);
         const double left = drive(planner, q, &pose, target, length, w, &arrived);
         if (arrived || left == 0.0) {

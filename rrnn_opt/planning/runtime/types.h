@@ -5,6 +5,7 @@
  * as are the tables t_* and the functions k_* (frames, drives, distances,
  * rows, bounds).
  */
+#include <signal.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -133,7 +134,8 @@ typedef enum {
     SOLVED = 1,
     BUDGET = 2,
     NO_POSTURE = 3,
-    NO_MEMORY = 4
+    NO_MEMORY = 4,
+    CANCELLED = 5
 } plan_status_t;
 
 typedef struct {
@@ -153,10 +155,14 @@ typedef struct {
     double activity;
     int64_t random, heuristic, steps, budget;
     int32_t roots, turns, random_turns, ik_failures;
+    int32_t root_tries;   /* for the first goal posture */
     int64_t choices;
     double steering;      /* m, margin of the present choice */
     int32_t done[2];      /* nodes where the trees meet; done[1] = -1: none */
     double *path;
     int32_t path_count;
     int32_t out_of_memory;
+    int32_t interruptible; /* Ctrl-C ends a call */
+    int32_t cancelled;    /* the present call shall end */
+    double deadline;      /* s, on the clock of seconds() */
 } planner_t;

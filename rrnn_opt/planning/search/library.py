@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes as ct
+import threading
 from functools import cached_property
 from typing import Any, Self
 
@@ -32,7 +33,15 @@ Tree = tuple[Array, NDArray[np.int64]]
 FLAGS = ("-O3", "-ffp-contract=fast")
 """Loops over lanes vectorise at this level; products and sums may be fused, which
 rounds once where two roundings are allowed for.  No fast-math."""
-STATUS = {0: "paused", 1: "solved", 2: "budget_exhausted", 3: "no_goal_posture"}
+SLICE_S = 0.02
+"""A search returns to Python so often, for progress and for signals."""
+STATUS = {
+    0: "paused",
+    1: "solved",
+    2: "budget_exhausted",
+    3: "no_goal_posture",
+    5: "cancelled",
+}
 
 
 class Runtime:
@@ -85,6 +94,8 @@ class Search:
         if not self._handle:
             raise RrnnError("planner: out of memory; give fewer obstacles")
         self._nv = runtime.robot.nv
+        main = threading.current_thread() is threading.main_thread()
+        self._call("interruptible", None, (ct.c_int32,), int(main))
 
     def __enter__(self) -> Self:
         return self
@@ -98,14 +109,17 @@ class Search:
             self._handle, *args
         )
 
-    def run(self, budget: int, slice_s: float) -> str:
-        """Search on; "paused" after ``slice_s`` seconds.
+    def run(self, budget: int, slice_s: float, limit_s: float = np.inf) -> str:
+        """Search on; "paused" after ``slice_s`` seconds, at the end of a slide.
+
+        After ``limit_s`` seconds, or at Ctrl-C in the main thread, it ends in the
+        middle of a slide, "cancelled": a search that goes on then is another one.
 
         Raises:
             RrnnError: out of memory.
         """
-        types = (ct.c_int64, ct.c_double)
-        code = int(self._call("run", ct.c_int32, types, budget, slice_s))
+        types = (ct.c_int64, ct.c_double, ct.c_double)
+        code = int(self._call("run", ct.c_int32, types, budget, slice_s, limit_s))
         if code not in STATUS:
             raise RrnnError("planner: out of memory; lower the exploration budget")
         return STATUS[code]

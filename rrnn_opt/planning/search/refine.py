@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.motion import shortcut
-from rrnn_opt.planning.search.library import Search
+from rrnn_opt.planning.search.library import SLICE_S, Search
 from rrnn_opt.planning.settings.random_rnn import RandomRnn
 
 Array = NDArray[np.float64]
@@ -102,7 +102,7 @@ def _searched(
             return best, rounds
         rounds += 1
         with new_search(rounds) as search:
-            path = _found(search, budget)
+            path = _found(search, budget, np.inf if within else end)
             if path is not None:
                 new = not np.array_equal(path, raw)
                 path = _shortened(search, path, slides, length(best))
@@ -111,11 +111,12 @@ def _searched(
             best = first.shorten(best, slides)
 
 
-def _found(search: Search, budget: int) -> Array | None:
-    """The path of a search, or None when it found none."""
+def _found(search: Search, budget: int, end: float) -> Array | None:
+    """The path of a search, or None when it found none before the clock shows end."""
     status = "paused"
     while status == "paused":
-        status = search.run(budget, 1.0)
+        left = end - time.perf_counter()
+        status = search.run(budget, min(SLICE_S, left), left)
     return search.path() if status == "solved" else None
 
 
