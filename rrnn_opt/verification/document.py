@@ -8,6 +8,7 @@ from typing import Any
 
 from rrnn_opt.check.claims.certificate import KIND
 from rrnn_opt.claim import Claim, Range
+from rrnn_opt.decay import DecayClaim
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.symbolic.tape import Instruction, Port, Tape
 
@@ -36,13 +37,20 @@ def certificate_document(
         RrnnError: a number of the witness is not finite.
     """
     exact = None if witness is None else exact_point(witness)
+    return document_of(claim_block(claim), method, payload, exact)
+
+
+def document_of(
+    block: Mapping[str, Any], method: str, payload: Any, witness: Any
+) -> dict[str, Any]:
+    """A document for the checker, whatever the form of the claim."""
     return {
         "kind": KIND,
         "schema": 1,
-        "claim": claim_block(claim),
+        "claim": block,
         "method": method,
         "payload": payload,
-        "witness": exact,
+        "witness": witness,
     }
 
 
@@ -50,12 +58,7 @@ def claim_block(claim: Claim) -> dict[str, Any]:
     """The claim as plain data."""
     tape = Tape.of(claim.function())
     return {
-        "id": claim.id,
-        "source": claim.source,
-        "statement": claim.statement,
-        "fingerprint": claim.fingerprint,
-        "order": claim.order,
-        "jacobian": claim.jacobian,
+        **heading(claim),
         "inputs": [port_row(port) for port in tape.inputs],
         "outputs": [port_row(port) for port in tape.outputs],
         "tape": [step_row(step) for step in tape.instructions],
@@ -64,6 +67,18 @@ def claim_block(claim: Claim) -> dict[str, Any]:
             [h.id, h.statement, h.relation is None, h.added] for h in claim.hypotheses
         ],
         "domain": [_range(interval) for interval in claim.domain],
+    }
+
+
+def heading(claim: Claim | DecayClaim) -> dict[str, Any]:
+    """What claims of every form are told apart by."""
+    return {
+        "id": claim.id,
+        "source": claim.source,
+        "statement": claim.statement,
+        "fingerprint": claim.fingerprint,
+        "order": claim.order,
+        "jacobian": claim.jacobian,
     }
 
 

@@ -14,9 +14,8 @@ from pathlib import Path
 
 from rrnn_opt.planning import RandomRnn
 from rrnn_opt.planning.settings.planners import PlannerSettings
-from rrnn_opt.report.files import write_text
 from rrnn_opt.validation.ending import ended
-from rrnn_opt.validation.studies.searching import run_study, summary
+from rrnn_opt.validation.studies.searching import compared
 
 VARIANTS: dict[str, PlannerSettings] = {
     "all on": RandomRnn(),
@@ -33,11 +32,7 @@ VARIANTS: dict[str, PlannerSettings] = {
 
 def main(argv: Sequence[str] | None = None) -> Path:
     """Run what is missing, write ``ablation.md`` and return its path."""
-    study, rows, made, out = run_study(
-        "ablation", VARIANTS, argv, trials=200, budget=2000
-    )
-    text = f"# Ablations\n\n{made}\n\n{summary(rows, study)}\n"
-    return write_text(out / "ablation.md", text)
+    return compared("ablation", "Ablations", VARIANTS, argv, trials=200, budget=2000)
 
 
 if __name__ == "__main__":

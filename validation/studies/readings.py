@@ -13,9 +13,8 @@ from pathlib import Path
 from rrnn_opt.planning import PaperRnn
 from rrnn_opt.planning.settings.planners import PlannerSettings
 from rrnn_opt.planning.settings.rollout import Feed, Order, Reading, Region
-from rrnn_opt.report.files import write_text
 from rrnn_opt.validation.ending import ended
-from rrnn_opt.validation.studies.searching import run_study, summary
+from rrnn_opt.validation.studies.searching import compared
 
 ORDERS: tuple[Order, ...] = ("first", "second")
 SETS: tuple[Reading, ...] = ("transpose", "index")
@@ -32,11 +31,8 @@ VARIANTS: dict[str, PlannerSettings] = {
 
 def main(argv: Sequence[str] | None = None) -> Path:
     """Run what is missing, write ``readings.md`` and return its path."""
-    study, rows, made, out = run_study(
-        "readings", VARIANTS, argv, trials=50, budget=300
-    )
-    text = f"# Readings of Algorithm 1\n\n{made}\n\n{summary(rows, study)}\n"
-    return write_text(out / "readings.md", text)
+    title = "Readings of Algorithm 1"
+    return compared("readings", title, VARIANTS, argv, trials=50, budget=300)
 
 
 if __name__ == "__main__":

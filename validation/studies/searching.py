@@ -12,6 +12,7 @@ import numpy as np
 
 from rrnn_opt.planning import Problem
 from rrnn_opt.planning.settings.planners import PlannerSettings
+from rrnn_opt.report.files import write_text
 from rrnn_opt.study import Case, wilson
 from rrnn_opt.validation.tables.cell import markdown
 from rrnn_opt.validation.tables.collect import collect, surroundings
@@ -59,6 +60,23 @@ def picked(
 ) -> list[dict[str, Any]]:
     """The searches of one variant in one scenario."""
     return [r for r in rows if (r["scenario"], r["variant"]) == (scenario, variant)]
+
+
+def compared(
+    name: str,
+    title: str,
+    variants: Mapping[str, PlannerSettings],
+    argv: Sequence[str] | None,
+    *,
+    trials: int,
+    budget: int,
+) -> Path:
+    """Run what is missing of a study, write its page and return the page's path."""
+    study, rows, made, out = run_study(
+        name, variants, argv, trials=trials, budget=budget
+    )
+    text = f"# {title}\n\n{made}\n\n{summary(rows, study)}\n"
+    return write_text(out / f"{name}.md", text)
 
 
 def summary(rows: Sequence[dict[str, Any]], study: Searches) -> str:

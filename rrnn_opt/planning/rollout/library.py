@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes as ct
-from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
@@ -15,7 +14,7 @@ from rrnn_opt.errors import ProblemError, RrnnError
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.rollout.kernel import rollout_source
 from rrnn_opt.planning.rollout.structs import RolloutStruct, rollout_struct
-from rrnn_opt.planning.search.cache import robot_text
+from rrnn_opt.planning.search.cache import RobotKey
 from rrnn_opt.planning.search.feasibility import OpenGoals
 from rrnn_opt.planning.search.library import (
     FLAGS,
@@ -44,17 +43,8 @@ class RolloutRuntime(Runtime):
         self._library = emit.load(self.built)
 
 
-@dataclass(frozen=True)
-class _Key:
-    """A robot and constants that equal others when all their numbers do."""
-
-    text: str
-    constants: tuple[MemoryCell, float, float]
-    robot: Robot = field(compare=False)
-
-
 @lru_cache(maxsize=16)
-def _runtime(key: _Key) -> RolloutRuntime:
+def _runtime(key: RobotKey) -> RolloutRuntime:
     return RolloutRuntime(key.robot, *key.constants)
 
 
@@ -64,8 +54,7 @@ def rollout_runtime_of(robot: Robot, settings: RolloutSettings) -> RolloutRuntim
     Raises:
         CompilerError: there is no C compiler, or it failed.
     """
-    constants = (settings.cell, settings.c1, settings.c2)
-    return _runtime(_Key(robot_text(robot), constants, robot))
+    return _runtime(RobotKey.of(robot, settings.cell, settings.c1, settings.c2))
 
 
 class RolloutSearch(Search):

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import Any
 
 from rrnn_opt.check import Judge
 from rrnn_opt.networks import MemoryCell
@@ -13,27 +14,28 @@ from rrnn_opt.robot import Robot
 
 
 @dataclass(frozen=True)
-class _Key:
-    """A robot that equals another when all its numbers do."""
+class RobotKey:
+    """A robot and constants that equal others when all their numbers do.
+
+    Attributes:
+        text: the robot's numbers.
+        constants: what else is compiled in.
+        robot: the robot itself.
+    """
 
     text: str
-    cell: MemoryCell
-    robot: Robot
+    constants: tuple[Any, ...]
+    robot: Robot = field(compare=False)
 
-    def __eq__(self, other: object) -> bool:
-        return (
-            isinstance(other, _Key)
-            and self.text == other.text
-            and self.cell == other.cell
-        )
-
-    def __hash__(self) -> int:
-        return hash((self.text, self.cell))
+    @staticmethod
+    def of(robot: Robot, *constants: Any) -> RobotKey:
+        """The key of a robot."""
+        return RobotKey(robot_text(robot), constants, robot)
 
 
 @lru_cache(maxsize=16)
-def _runtime(key: _Key) -> Runtime:
-    return Runtime(key.robot, key.cell)
+def _runtime(key: RobotKey) -> Runtime:
+    return Runtime(key.robot, *key.constants)
 
 
 def runtime_of(robot: Robot, cell: MemoryCell) -> Runtime:
@@ -44,7 +46,7 @@ def runtime_of(robot: Robot, cell: MemoryCell) -> Runtime:
     Raises:
         CompilerError: there is no C compiler, or it failed.
     """
-    return _runtime(_Key(robot_text(robot), cell, robot))
+    return _runtime(RobotKey.of(robot, cell))
 
 
 @lru_cache(maxsize=64)

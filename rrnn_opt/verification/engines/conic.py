@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import importlib.util
 import json
-import subprocess
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +15,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from rrnn_opt.errors import UndecidedError
+from rrnn_opt.verification.engines.process import run_apart
 
 Array = NDArray[np.float64]
 WORKER = Path(__file__).with_name("conic_worker.py")
@@ -72,16 +71,8 @@ def solve(program: ConicProgram, wall_s: float) -> tuple[float, Array] | None:
         "sizes": program.sizes,
         "positive": program.positive,
     }
-    try:
-        done = subprocess.run(
-            [sys.executable, str(WORKER)],
-            input=json.dumps(job),
-            capture_output=True,
-            text=True,
-            timeout=wall_s,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
+    done = run_apart(WORKER, job, wall_s)
+    if done is None or done.returncode != 0:
         return None
-    answer = json.loads(done.stdout) if done.returncode == 0 else None
+    answer = json.loads(done.stdout)
     return answer if answer is None else (answer[0], np.array(answer[1]))

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.check.claims.certificate import KIND
 from rrnn_opt.decay import DecayClaim
 from rrnn_opt.errors import UndecidedError
+from rrnn_opt.verification.document import document_of, heading
 from rrnn_opt.verification.engines.conic import ConicProgram, require_clarabel, solve
 
 Array = NDArray[np.float64]
@@ -61,25 +61,13 @@ def decay_document(
     """The document that asks the checker to settle a claim of decay."""
     block = {
         "form": "decay",
-        "id": claim.id,
-        "source": claim.source,
-        "statement": claim.statement,
-        "fingerprint": claim.fingerprint,
-        "order": claim.order,
-        "jacobian": claim.jacobian,
+        **heading(claim),
         "vertices": [[[str(x) for x in row] for row in v] for v in claim.vertices],
         "rate": str(claim.rate),
         "discrete": claim.discrete,
         "hypotheses": [[h.id, h.statement, h.added] for h in claim.hypotheses],
     }
-    return {
-        "kind": KIND,
-        "schema": 1,
-        "claim": block,
-        "method": method,
-        "payload": payload,
-        "witness": witness,
-    }
+    return document_of(block, method, payload, witness)
 
 
 def _slowest(vertices: Array, claim: DecayClaim) -> Array:

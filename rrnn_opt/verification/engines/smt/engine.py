@@ -10,8 +10,6 @@ from __future__ import annotations
 import importlib.util
 import json
 import math
-import subprocess
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -22,6 +20,7 @@ from rrnn_opt.claim import Claim
 from rrnn_opt.errors import UndecidedError
 from rrnn_opt.verification.document import certificate_document
 from rrnn_opt.verification.engines.points.falsify import worth_replaying
+from rrnn_opt.verification.engines.process import run_apart
 from rrnn_opt.verification.engines.smt.text import SmtText, smt_text
 
 WORKER = Path(__file__).with_name("worker.py")
@@ -77,16 +76,8 @@ def ask(query: SmtText, solver: str, wall_s: float) -> SmtAnswer:
         "variables": [*query.names.values(), *pairs],
         "timeout_s": wall_s,
     }
-    try:
-        done = subprocess.run(
-            [sys.executable, str(WORKER)],
-            input=json.dumps(job),
-            capture_output=True,
-            text=True,
-            timeout=wall_s + GRACE_S,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
+    done = run_apart(WORKER, job, wall_s + GRACE_S)
+    if done is None:
         return SmtAnswer(f"no answer in {wall_s:.3g} s", {})
     if done.returncode != 0:
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
