@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from rrnn_opt.errors import RrnnError
-from rrnn_opt.formulations.slide import row
+from rrnn_opt.formulations.slide import require_spheres, row
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.symbolic import Symbol
 
@@ -32,7 +31,7 @@ class Contacts:
 
     @property
     def gradients(self) -> ca.SX:
-        """Gradients n'J_o of the clearances, (k, nv), m/rad or 1."""
+        """Gradients ``dd_i/dq = n_i'J_i`` of the clearances, (k, nv), m/rad or 1."""
         normals = ca.horzsplit(self.normals.sx)
         pairs = zip(normals, self.jacobians, strict=False)
         rows = [n.T @ J for n, J in pairs]
@@ -50,10 +49,8 @@ def contacts_of(kin: Kinematics, spheres: Sequence[int]) -> Contacts:
     Raises:
         RrnnError: there is no such sphere.
     """
-    have, k = len(kin.robot.spheres), max(len(spheres), 1)
-    for index in spheres:
-        if not 0 <= index < have:
-            raise RrnnError(f"contacts: no sphere {index}; {kin.robot.name} has {have}")
+    require_spheres(kin, spheres)
+    k = max(len(spheres), 1)
     meaning = "outward unit normals of the obstacles"
     normals = Symbol.matrix("normals", (3, k), "1", meaning)
     gaps = Symbol.vector("clearances", k, "m", "gaps between spheres and obstacles")
@@ -62,7 +59,7 @@ def contacts_of(kin: Kinematics, spheres: Sequence[int]) -> Contacts:
 
 
 def near(clearance: ca.SX, distance: float) -> ca.SX:
-    """1 where a clearance is at most ``distance`` (m), else 0.
+    """1 where ``clearance <= distance`` (m), else 0.
 
     The comparison itself: as a conditional, CasADi would take a factor in the
     decision inside it.

@@ -31,6 +31,7 @@ from collections.abc import Sequence
 import casadi as ca
 
 from rrnn_opt.arguments import checked
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.robot.robot import PRISMATIC, JointTree
@@ -41,7 +42,9 @@ from rrnn_opt.symbolic.linear import cholesky_solve
 def row(
     tree: JointTree, axes: ca.SX, origins: ca.SX, mask: ca.SX, point: ca.SX, n: ca.SX
 ) -> ca.SX:
-    """Template of a contact row: n' J of a point, one entry a coordinate.
+    """Template of a contact row: ``n'J`` of a point, one entry a coordinate.
+
+        revolute:  (n'J)_k = z_k . ((p - o_k) x n),    prismatic:  z_k . n
 
     Args:
         tree: the joints.
@@ -77,7 +80,14 @@ def offset(clearance: ca.SX, margin: ca.SX, bound: ca.SX) -> ca.SX:
 def step_box(
     q: ca.SX, lower: ca.SX, upper: ca.SX, radius: ca.SX
 ) -> tuple[ca.SX, ca.SX]:
-    """The box of u, cut at ``radius`` (rad or m) a coordinate, two (nv, 1)."""
+    """``max(q- - q, -r)`` and ``min(q+ - q, r)``, two (nv, 1), rad or m.
+
+    Args:
+        q: joint positions, (nv, 1), rad or m.
+        lower: q-, (nv, 1), rad or m.
+        upper: q+, (nv, 1), rad or m.
+        radius: r, largest increment of a coordinate, scalar, rad or m.
+    """
     return ca.fmax(lower - q, -radius), ca.fmin(upper - q, radius)
 
 
@@ -109,9 +119,33 @@ def tip_attraction(
     return w * ca.fmin(1, length / ca.fmax(norm, 1e-30))
 
 
+def require_spheres(kin: Kinematics, spheres: Sequence[int]) -> None:
+    """Refuse contacts with spheres that the robot has not.
+
+    Args:
+        kin: kinematics of the robot.
+        spheres: index of the robot's sphere in each contact.
+
+    Raises:
+        RrnnError: there is no such sphere.
+    """
+    have = len(kin.robot.spheres)
+    for index in spheres:
+        if not 0 <= index < have:
+            raise RrnnError(f"contacts: no sphere {index}; {kin.robot.name} has {have}")
+
+
 @checked()
 def slide(kin: Kinematics, contacts: Sequence[int] = ()) -> Formulation:
-    """The QP of one step with one contact row for each named sphere.
+    """The planner's step: go where the attraction pulls, slide along obstacles.
+
+        minimise    1/2 u'u - w'u
+        subject to  n_i'J_i(q) u >= -max(d_i - m, 0) + B_i / 2     for contact i
+                    max(q- - q, -r) <= u <= min(q+ - q, r)
+
+    u is the joint increment of one step and w the attraction.  With B_i at the
+    optimum, d_i + n_i'J_i u - B_i(u) / 2 > 0 proves the whole step free of
+    contact i, because the gap along it is bounded by a concave function.
 
     Args:
         kin: kinematics of the robot.
@@ -119,10 +153,19 @@ def slide(kin: Kinematics, contacts: Sequence[int] = ()) -> Formulation:
             stand in several.
 
     Returns:
-        Formulation in the increment u (nv,), with parameters ``q`` (nv,),
-        ``attraction`` (nv,), ``normals`` (3, k), ``clearances`` (k,),
-        ``bounds`` (k,), ``margin`` (1,) and ``radius`` (1,).
+        Formulation in the increment ``u`` (nv,), with parameters ``q`` (nv,),
+        ``attraction`` w (nv,), ``normals`` (3, k), ``clearances`` d (k,),
+        ``bounds`` B (k,), ``margin`` m (1,) and ``radius`` r (1,).
+
+    Raises:
+        RrnnError: there is no such sphere.
+
+    Source:
+        Li, Li, Hannaford (IEEE TII 2019), eqs. (3), (10)-(13), with linear rows
+        in place of the sets (12), which do not keep a point from its obstacle.
+        The concave bound of the gap is ours.
     """
+    require_spheres(kin, contacts)
     robot, k = kin.robot, max(len(contacts), 1)
     u = Symbol.vector("u", robot.nv, "rad", "joint increment of the step")
     w = Symbol.vector("attraction", robot.nv, "rad", "where the step is drawn to")

@@ -12,6 +12,7 @@ import pytest
 import qpsolvers
 
 from rrnn_opt import formulations
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.networks import PrimalDual
 from rrnn_opt.symbolic import Tape
 from rrnn_opt.symbolic.qp import FIELDS
@@ -76,6 +77,14 @@ def test_contacts_come_with_their_parameters(variant, form):
         assert {"normals", "clearances"} <= names
     elif variant[0] != "slide":
         assert not {"normals", "clearances", "magnitudes"} & names
+
+
+@pytest.mark.parametrize("index", [99, -1])
+def test_a_contact_with_no_such_sphere_is_refused(variant, index):
+    if variant[1] == "contacts" or variant[0] == "slide":
+        scheme = getattr(formulations, variant[0])
+        with pytest.raises(RrnnError, match=f"no sphere {index}"):
+            scheme(kinematics("planar3"), contacts=(index,))
 
 
 def test_a_convex_programme_whose_optimum_is_the_networks_equilibrium(form, kin):
