@@ -64,7 +64,8 @@ def classical(
         RobotError: there is no such frame.
 
     Source:
-        Li, Li, Hannaford (IEEE TII 2019), eqs. (15), (16); the box QP is ours.
+        Li, Li, Hannaford (IEEE TII 2019), eqs. (6), (15), (16); the box QP is
+        ours.
     """
     u, task = velocity(kin), tracking(kin, frame)
     lam = Symbol.vector("lam", 3, "rad2/(m s)", "multiplier integrated by the loop")
@@ -82,7 +83,7 @@ def classical(
 
 
 def multiplier_rate(jacobian: ca.SX, u: ca.SX, rd_dot: ca.SX, epsilon: float) -> ca.SX:
-    """Rate of the integrated multiplier, (rd_dot - J u) / epsilon.
+    """Rate of the integrated multiplier, ``lam' = (rd_dot - J u) / epsilon``.
 
     Args:
         jacobian: J, (3, nv).

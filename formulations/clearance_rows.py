@@ -74,7 +74,8 @@ def clearance_rows(
         RobotError: there is no such frame.
 
     Source:
-        Faverjon and Tournassoud 1987, in velocities, on the paper's (17).
+        Faverjon and Tournassoud 1987, in velocities, on (17) and in place of
+        eq. (12) of Li, Li, Hannaford (IEEE TII 2019).
     """
     require_positive(gamma=gamma)
     require_not_negative(safe=safe)

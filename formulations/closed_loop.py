@@ -72,8 +72,9 @@ def closed_loop(
         RobotError: there is no such frame.
 
     Source:
-        Ours for Li, Li, Hannaford (IEEE TII 2019), section II-B: the paper
-        puts the error into the objective, where it has no effect.
+        Li, Li, Hannaford (IEEE TII 2019), eqs. (3), (7), (10); the feedback is
+        ours, after Sciavicco and Siciliano 1988: the paper (section II-B) puts
+        the error into the objective, where it has no effect.
     """
     require_positive(kappa=kappa)
     u, wanted = velocity(kin), tracking(kin, frame, task)

@@ -68,7 +68,7 @@ def joint_sign_sets(
         kin: kinematics of the robot.
         contacts: index of the robot's sphere in each contact.
         reading: of (12).
-        safe: clearance at and below which a contact is critical, m.
+        safe: d_safe, clearance at and below which a contact is critical, m.
         epsilon: inverse of the feedback gain, s, as in ``position_feedback``.
         frame: the frame that goes; the tip by default.
         c1: of (10) at the lower limits, 1/s.
@@ -84,7 +84,7 @@ def joint_sign_sets(
         RobotError: there is no such frame.
 
     Source:
-        Li, Li, Hannaford (IEEE TII 2019), eqs. (8)-(12): with it the paper's
+        Li, Li, Hannaford (IEEE TII 2019), eqs. (9)-(12), (17): with it the paper's
         own scheme is complete.  d_safe is not given there.
     """
     if reading not in ("transpose", "index"):

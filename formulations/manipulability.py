@@ -23,7 +23,7 @@ _NOTES = (
 
 
 def gram_determinant(kin: Kinematics, frame: str | None = None) -> ca.SX:
-    """det(J J') of the position rows that can move, the square of Yoshikawa's w.
+    """``w^2 = det(J J')`` of the position rows that can move, w Yoshikawa's measure.
 
     Args:
         kin: kinematics of the robot.

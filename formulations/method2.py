@@ -56,11 +56,14 @@ def method2(
         minimise    1/2 u'u,   u the joint acceleration
         subject to  rd_ddot - J'(q, qd) qd - J(q) u = 0      (J' = dJ/dt)
                     J_N u <= -J_N' qd + b' - kappa_o (J_N qd - b)
-                    three-term bounds of ``acceleration_bounds``
+                    u <= min(mu_p (q+ - theta - q), mu_v (w - qd), a)
+                    u >= max(mu_p (q- + theta - q), mu_v (-w - qd), -a)
 
     J_N qd <= b are the sign rows of ``method1``, J_N = -diag(sgn n) J_o, with
-    b = s(d) b0; the rows here make the excess J_N qd - b die out at the rate
-    kappa_o.  b' = s'(d) n'J_o qd b0, and n counts as constant between updates.
+    b = s(d) b0 and s falling from ``s(d2) = 1`` to ``s(d1) = 0``; the rows here
+    make the excess J_N qd - b die out at the rate kappa_o.  b' = s'(d) n'J_o qd
+    b0, and n counts as constant between updates.  The bounds are
+    ``acceleration_bounds``: w the largest speed, a the largest acceleration.
 
     Args:
         kin: kinematics of the robot.
@@ -69,7 +72,8 @@ def method2(
         kappa_o: rate of the obstacle rows, 1/s.
         mu_p: stiffness of the position bound, 1/s2.
         mu_v: rate of the speed bound, 1/s.
-        margin: kept from each position limit, as a share of the joint's range.
+        margin: theta, kept from each position limit, as a share of the joint's
+            range.
         frame: the frame that follows; the tip by default.
 
     Returns:
@@ -83,8 +87,8 @@ def method2(
 
     Source:
         Reconstructed: objective, equality and bounds in the standard form of
-        Guo and Zhang's school; the paper's own inequality and its gains are
-        not known to us.
+        D. Guo, Y. Zhang (IEEE TIE 61(12), 2014); the paper's own inequality and
+        its gains are not known to us.
     """
     require_positive(kappa_o=kappa_o)
     u, qd, task = acceleration(kin), joint_velocity(kin), tracking(kin, frame)

@@ -55,7 +55,9 @@ def method3(
         RobotError: there is no such frame.
 
     Source:
-        Ours, in the place of reference [44] of the paper.
+        Ours, in the place of reference [44] of Li, Li, Hannaford (IEEE TII
+        2019), of which the paper gives no formula; integral action as in L. Jin,
+        Y. Zhang, S. Li, Y. Zhang (IEEE TIE 63(11), 2016).
     """
     require_positive(k0=k0, k1=k1)
     u, rd, task = velocity(kin), target(), tracking(kin, frame)

@@ -41,11 +41,14 @@ def minimum_acceleration(
         minimise    1/2 u'u,   u the joint acceleration
         subject to  rd_ddot + 2 kappa (rd_dot - J qd) + kappa^2 (rd - r)
                     - J'(q, qd) qd - J(q) u = 0              (J' = dJ/dt)
-                    bounds of ``braking_bounds``
+                    u <= min(omega^2 (q+ - q) - 2 omega qd, mu_v (w - qd), a)
+                    and its mirror image,  omega = a / w
 
-    The error obeys e'' + 2 kappa e' + kappa^2 e = 0.  Against ``method2`` two
-    terms are new: the feedback, and bounds whose position term is damped, so
-    that they are kept for ever and never contradict each other.
+    w being the largest speed and a the largest acceleration
+    (``braking_bounds``).  The error obeys e'' + 2 kappa e' + kappa^2 e = 0.
+    Against ``method2`` two terms are new: the feedback, and bounds whose
+    position term is damped, so that they are kept for ever and never contradict
+    each other.
 
     Args:
         kin: kinematics of the robot.

@@ -42,7 +42,7 @@ def minimum_velocity(
 
     Args:
         kin: kinematics of the robot.
-        W: symmetric positive semidefinite weight, (nv, nv); I/2 by default.
+        W: symmetric positive semidefinite weight, (nv, nv), 1; I/2 by default.
         c: linear weight, (nv,), rad/s or m/s; 0 by default.
         frame: the frame that follows; the tip by default.
         task: "position": rd_dot is the velocity of the frame's origin, (3,),
@@ -63,9 +63,10 @@ def minimum_velocity(
         RobotError: there is no such frame.
 
     Source:
-        Li, Li, Hannaford (IEEE TII 2019), eqs. (3), (4), (10).  The paper asks
-        of W only symmetry; semidefiniteness is needed for (5) to be an
-        optimum, definiteness for the network (6) to reach it.
+        Li, Li, Hannaford (IEEE TII 2019), eqs. (3), (10), its multiplier being
+        that of (4).  The paper asks of W only symmetry; semidefiniteness is
+        needed for (5) to be an optimum, definiteness for the network (6) to
+        reach it.
     """
     u, wanted = velocity(kin), tracking(kin, frame, task)
     lower, upper = velocity_bounds(kin.q, kin.robot.limits, c1=c1, c2=c2)

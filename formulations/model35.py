@@ -36,7 +36,7 @@ def model35(
 
         minimise    1/2 u'u
         subject to  rd_dot + kappa e - J(q) u = 0,    e = rd - r(q)
-                    u in Omega
+                    u in Omega = [d-(q), d+(q)]                    (10)
 
     ``PrimalDual`` of it has epsilon lambda' = rd_dot - J u + kappa e, the
     tracking form of a projected network with position feedback.  Omega is the
@@ -60,7 +60,8 @@ def model35(
         RobotError: there is no such frame.
 
     Source:
-        Ours, from what the paper's section II-B and Table I say of [35].
+        Ours, from what Li, Li, Hannaford (IEEE TII 2019) say of their [35] in
+        section II-B and Table I.
     """
     require_positive(kappa=kappa)
     u, rd, task = velocity(kin), target(), tracking(kin, frame)

@@ -56,7 +56,8 @@ def model36(
         RobotError: there is no such frame.
 
     Source:
-        Ours, from what the paper's section II-B says of [36].
+        Ours, from what Li, Li, Hannaford (IEEE TII 2019) say of their [36] in
+        section II-B.
     """
     if not 0.0 < speed <= 1.0:
         raise RrnnError(f"speed {speed}: it must be a share in (0, 1]")

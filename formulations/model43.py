@@ -47,7 +47,8 @@ def model43(
         RobotError: there is no such frame.
 
     Source:
-        Ours, from the paper's Table I alone.
+        Ours, from what Table I of Li, Li, Hannaford (IEEE TII 2019) says of
+        [43], which is all that the paper says of it.
     """
     require_positive(damping=damping)
     u, task = velocity(kin), tracking(kin, frame)

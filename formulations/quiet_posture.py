@@ -62,7 +62,9 @@ def quiet_posture(
         RobotError: there is no such frame.
 
     Source:
-        Ours.
+        Ours: what |J|_F does to white noise is derived above; descent by
+        self-motion after Liegeois 1977, the limits (10) of Li, Li, Hannaford
+        (IEEE TII 2019).
     """
     require_positive(kappa=kappa, gain=gain)
     u, rd, task = velocity(kin), target(), tracking(kin, frame)

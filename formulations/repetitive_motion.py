@@ -9,7 +9,10 @@ from rrnn_opt.formulations.task import POSITION, follow, require_positive, track
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.symbolic import Symbol
 
-_CITATION = "Y. Zhang, X. Lv, Z. Li, Z. Yang, K. Chen, Mechatronics 18(9):475-485, 2008"
+_CITATION = (
+    "Y. Zhang, X. Lv, Z. Li, Z. Yang, K. Chen, Mechatronics 18(9):475-485, 2008; "
+    "limits (10) of Li, Li, Hannaford, IEEE TII 15(4), 2019"
+)
 _NOTES = (
     "Drift is small, not zero: after a closed curve the joints are back to within a "
     "distance that falls with the gain and does not grow from lap to lap.  In steps "

@@ -56,7 +56,7 @@ def sign_rows(
     Args:
         kin: kinematics of the robot.
         contacts: index of the robot's sphere in each contact; none: no rows.
-        safe: clearance at and below which a contact is critical, m.
+        safe: d_safe, clearance at and below which a contact is critical, m.
         epsilon: inverse of the feedback gain, s, as in ``position_feedback``.
         frame: the frame that goes; the tip by default.
         c1: of (10) at the lower limits, 1/s.
@@ -72,7 +72,7 @@ def sign_rows(
         RobotError: there is no such frame.
 
     Source:
-        Li, Li, Hannaford (IEEE TII 2019), eqs. (8)-(12), in a reading of ours.
+        Li, Li, Hannaford (IEEE TII 2019), eqs. (9)-(12), (17), in a reading of ours.
     """
     require_not_negative(safe=safe)
     u, rd, found = velocity(kin), target(), contacts_of(kin, contacts)

@@ -38,7 +38,7 @@ class Band:
         return ca.sin(np.pi / 2 * self._place(clearance)) ** 2
 
     def slope(self, clearance: ca.SX) -> ca.SX:
-        """ds/dd, 1/m; continuous, 0 at and beyond both ends."""
+        """``ds/dd = pi / (2 (d2 - d1)) sin(pi x)``, 1/m; 0 at and beyond both ends."""
         width = self.outer - self.inner
         return np.pi / (2 * width) * ca.sin(np.pi * self._place(clearance))
 
@@ -64,13 +64,13 @@ def sign_jacobian(contacts: Contacts) -> ca.SX:
 
 
 def active(contacts: Contacts, distance: float) -> ca.SX:
-    """1 for the three rows of a contact nearer than ``distance`` (m), (3k, 1)."""
+    """1 for the three rows of a contact with ``d_i <= distance`` (m), (3k, 1)."""
     gaps = ca.vertsplit(contacts.clearances.sx)
     return ca.vertcat(*[ca.repmat(near(gap, distance), 3, 1) for gap in gaps])
 
 
 def threefold(values: ca.SX) -> ca.SX:
-    """Each element three times in a row, (k, 1) to (3k, 1)."""
+    """``v -> (v_1, v_1, v_1, v_2, ..)``, from (k, 1) to (3k, 1)."""
     return ca.vertcat(*[ca.repmat(v, 3, 1) for v in ca.vertsplit(values)])
 
 

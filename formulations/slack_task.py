@@ -60,7 +60,7 @@ def slack_task(
         kin: kinematics of the robot.
         contacts: index of the robot's sphere in each contact; none: no rows.
         delta: scale of the slack of linear rows, m.
-        delta_angular: scale of the slack of angular rows of a pose, 1.
+        delta_angular: delta of the angular rows of a pose, 1.
         gamma: rate at which a clearance may shrink, 1/s.
         safe: d_safe, m.
         task: "position" or "pose", as in ``minimum_velocity``.

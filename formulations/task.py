@@ -165,7 +165,7 @@ def target_acceleration() -> Symbol:
 def regulation_cost(
     kin: Kinematics, u: Symbol, rd: Symbol, *, frame: str | None, epsilon: float
 ) -> ca.SX:
-    """1/2 u'u - (1/epsilon) (rd - r(q))'J(q) u, the cost that (17) belongs to."""
+    """``1/2 u'u - (1/epsilon) (rd - r(q))'J(q) u``, the cost of (17); (1, 1)."""
     require_positive(epsilon=epsilon)
     error = (rd.sx - kin.position(frame)) / epsilon
     return ca.dot(u.sx, u.sx) / 2 - ca.dot(kin.jacobian(frame).T @ error, u.sx)

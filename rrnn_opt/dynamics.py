@@ -208,7 +208,7 @@ class DiscreteDynamics(Dynamics):
 
     Attributes:
         next: g, (n, 1).
-        output: output at x, before the step.
+        output: at x, before the step, any column.
 
     Raises:
         ShapeError: a part has the wrong shape.

@@ -1,8 +1,24 @@
 """What all tests rely on."""
 
 import signal
+from pathlib import Path
 
 import pytest
+
+from tests.docstrings import House
+from tests.syntax import read_house
+
+
+@pytest.fixture(scope="session")
+def sources():
+    """Text of every module of the package, by dotted name."""
+    return read_house(Path(__file__).parents[1] / "rrnn_opt")
+
+
+@pytest.fixture(scope="session")
+def house(sources):
+    """The same as syntax trees; parsing costs as much as all that is asked of them."""
+    return House(sources)
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -22,6 +22,23 @@ def arguments(text: str) -> set[str]:
     return set(re.findall(r"^\*{0,2}(\w+):", _section(text, "Args"), re.MULTILINE))
 
 
+def entries(text: str, title: str) -> dict[str, str]:
+    """What one section says of each name; several names may share an entry."""
+    said: dict[str, str] = {}
+    names: list[str] = []
+    for line in _section(text, title).splitlines():
+        opens = re.match(r"\*{0,2}(\w+(?:, \w+)*): *(.*)", line)
+        if opens:
+            names, line = opens[1].split(", "), opens[2]
+        said |= {name: f"{said.get(name, '')} {line.strip()}".strip() for name in names}
+    return said
+
+
+def paragraph(text: str, title: str) -> str:
+    """A section that is plain text, in one line."""
+    return " ".join(_section(text, title).split())
+
+
 def _section(text: str, title: str) -> str:
     """The entries of one section, continued lines further in."""
     found = re.search(SECTION.format(title), text + "\n", re.MULTILINE)

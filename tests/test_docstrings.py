@@ -1,26 +1,14 @@
 """Docstrings say what the code does: they exist, and name what is raised."""
 
 import re
-from pathlib import Path
 
 import pytest
 
 from tests.docstrings import House
-from tests.syntax import arguments, documented, methods, parameters, read_house
+from tests.syntax import arguments, documented, methods, parameters
 
-ROOT = Path(__file__).parents[1] / "rrnn_opt"
 QUIET = ("__getattr__",)
 """A module's protocol with Python: AttributeError and nothing else."""
-
-
-@pytest.fixture(scope="module")
-def sources():
-    return read_house(ROOT)
-
-
-@pytest.fixture(scope="module")
-def house(sources):
-    return House(sources)
 
 
 def public(house):

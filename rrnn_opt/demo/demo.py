@@ -26,7 +26,7 @@ class DemoReport:
         rows: at most ten rows of (what, value).
         checks: questions with their answers.
         files: what was written.
-        seconds: wall time.
+        seconds: wall time, s.
     """
 
     rows: tuple[tuple[str, str], ...]

@@ -60,7 +60,8 @@ class Batch:
                 (rows, columns), is used for all columns.  Contiguous rows of
                 float64 are read where they are when n is a multiple of 8,
                 everything else is copied first.
-            out: from :meth:`room`, to be written again; new ones by default.
+            out: of the shape of :meth:`room`, to be written again; new ones by
+                default.
 
         Returns:
             One array for each result, (rows, n) or (rows, columns, n).
@@ -84,7 +85,8 @@ class Batch:
 
         Args:
             *arrays: as in a call, one for each argument.
-            out: from :meth:`room`, written at every evaluation; new ones by default.
+            out: of the shape of :meth:`room`, written at every evaluation; new
+                ones by default.
 
         Raises:
             ShapeError: wrong number or shape of arrays; as LayoutError: ``out``
@@ -118,7 +120,7 @@ class Batch:
         return run, results
 
     def room(self, n: int) -> tuple[Array, ...]:
-        """Uninitialised results of ``n`` columns, to be used over and over."""
+        """Uninitialised results, (rows, n) or (rows, columns, n), to be used again."""
         return tuple(room_of(port, n) for port in self.outputs)
 
 

@@ -29,7 +29,7 @@ class Built:
     Attributes:
         path: the file; it lives at least as long as this process.
         cached: it was there already, nothing was compiled.
-        seconds: wall time of :func:`build`, finding the compiler included.
+        seconds: wall time of :func:`build`, the search for a compiler included, s.
         compiler: first line of the compiler's version.
     """
 

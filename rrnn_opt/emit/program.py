@@ -69,10 +69,10 @@ class Program:
             name: of the function.
             arrays: one for each argument, column-major, of the program's type;
                 a column (n, 1) is an array (n,). Nothing is copied.
-            out: arrays for the results; new ones by default.
+            out: arrays in the shape of the results; new ones by default.
 
         Returns:
-            One array for each result.
+            One array for each result, (rows, columns), or (n,) for a column.
 
         Raises:
             ShapeError: wrong number, shape, type or memory order of arrays.
@@ -95,7 +95,7 @@ class Program:
         Args:
             name: of the function.
             arrays: as in :meth:`call`; read anew at every call.
-            out: arrays that every call writes.
+            out: arrays that every call writes, in the shape of the results.
 
         Returns:
             A function that runs the compiled code on exactly these arrays and

@@ -43,17 +43,17 @@ class Path:
 
     @property
     def start(self) -> Array:
-        """First waypoint, (nv,)."""
+        """First waypoint, (nv,), rad or m."""
         return np.asarray(self.waypoints[0])
 
     @property
     def goal(self) -> Array:
-        """Last waypoint, (nv,)."""
+        """Last waypoint, (nv,), rad or m."""
         return np.asarray(self.waypoints[-1])
 
     @cached_property
     def arcs(self) -> Array:
-        """Euclidean length from the start to each waypoint, (N,)."""
+        """Euclidean length from the start to each waypoint, (N,), rad or m."""
         steps = np.diff(self.waypoints, axis=0)
         arcs = np.zeros(len(self.waypoints))
         np.cumsum(np.sqrt(np.einsum("ij,ij->i", steps, steps)), out=arcs[1:])
@@ -62,17 +62,17 @@ class Path:
 
     @property
     def length(self) -> float:
-        """Euclidean length in joint space."""
+        """Euclidean length in joint space, rad or m."""
         return float(self.arcs[-1])
 
     def at(self, arc: ArrayLike) -> Array:
         """Points at given lengths from the start; beyond the ends, the ends.
 
         Args:
-            arc: (M,).
+            arc: lengths, (M,), rad or m.
 
         Returns:
-            (M, nv); exactly the first and last waypoint at the ends.
+            (M, nv), rad or m; exactly the first and last waypoint at the ends.
         """
         wanted, arcs = np.asarray(arc, dtype=np.float64), self.arcs
         if len(arcs) == 1:

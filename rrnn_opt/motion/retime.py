@@ -35,7 +35,7 @@ class RetimeSettings:
 
     Attributes:
         rows: least number of rows.
-        max_stretch: a grid that needs a larger stretch than this is refined.
+        max_stretch: a grid that needs a larger factor of time than this is refined.
         refinements: how often the grid may be doubled for that.
         overshoot: positions may leave the joint box by this, rad or m.
     """

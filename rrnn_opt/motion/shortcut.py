@@ -36,7 +36,7 @@ def shortcut(
         attempts: random pairs to try.
 
     Returns:
-        (M, nv), first and last row unchanged, never longer than the input.
+        (M, nv), rad or m, first and last row unchanged, never longer than the input.
 
     Raises:
         NotFiniteError, ShapeError: malformed input.

@@ -86,7 +86,8 @@ class Trajectory:
             t: (M,) or a number, s; outside [0, duration] the ends are taken.
 
         Returns:
-            q, qd, qdd, each (M, nv), or (nv,) for a number.
+            q (rad or m), qd (a second), qdd (a second squared), each (M, nv),
+            or (nv,) for a number.
         """
         wanted = np.clip(np.asarray(t, dtype=np.float64), self.t[0], self.t[-1])
         last = len(self.t) - 2
@@ -102,7 +103,7 @@ class Trajectory:
         """The same path, ``factor`` times slower.
 
         Args:
-            factor: of the duration; positive.
+            factor: ratio of the new duration to the old, positive.
 
         Raises:
             RetimeError: the factor is not a positive number.

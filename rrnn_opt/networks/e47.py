@@ -23,8 +23,7 @@ class E47(ProjectionMap):
 
         g(y) = H' e(y) + H y + p.
 
-    Every iterate is within the bounds, which those
-    of ``Lvi94`` need not be.
+    Every iterate is within the bounds, which those of ``Lvi94`` need not be.
 
     Attributes:
         whiten, delta: see ``ProjectionNetwork``.
@@ -33,9 +32,9 @@ class E47(ProjectionMap):
         RrnnError: delta is not positive and finite.
 
     Source:
-        A second form of B. He's method.  The name is that of the robotics
-        literature; the formula is the one known to us, with its convergence
-        seen and not proved here.
+        A second form of B. He's method of 1994 (see ``Lvi94``).  The name is that
+        of the robotics literature; the formula is the one known to us, with its
+        convergence seen and not proved here.
     """
 
     extra = frozenset({"sq", "div"})

@@ -29,13 +29,14 @@ class FiniteTimeZnn(Network):
 
     Its slope at zero is infinite: Euler steps of h end in a flutter of size
     (h gamma / 4)^(1/(1-r)) about the equilibrium, so short steps are the price
-    of a short time.
+    of a short time: ``h = 4 band^(1-r) / gamma``.  The linear solve is damped as
+    ``A P^-1 A' + delta I``.
 
     Attributes:
         gamma: rate, 1/s.
-        power: r.
+        power: r, 1.
         band: flutter that ``euler_bound`` allows, in units of the error.
-        damping: of the solve; see ``kkt``.
+        damping: delta of the solve ``A P^-1 A' + delta I``, 1.
 
     Raises:
         RrnnError: a number is not positive and finite, or r is not below 1.

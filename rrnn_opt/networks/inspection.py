@@ -69,15 +69,17 @@ def function_operations(fn: ca.Function) -> frozenset[str]:
 
 
 def opaque(form: Formulation) -> Formulation:
-    """The same shapes and Hessian, every other number of the data a parameter.
+    """The same shapes and P, every other number of the data a parameter.
+
+        minimise    1/2 u'Pu + q'u
+        subject to  b - A u = 0,   G u - h <= 0,   lb <= u <= ub
 
     Args:
         form: any formulation.
 
     Returns:
-        ``min 1/2 u'Pu + q'u``, ``b - A u = 0``, ``G u - h <= 0`` and bounds, with
-        parameters data_q, data_A, .. in place of the formulation's; sides of
-        the bounds that are infinite for all parameters stay so.
+        Formulation with parameters data_q, data_A, .. in place of its own; sides
+        of the bounds that are infinite for all parameters stay so.
     """
     qp, u = form.qp, form.decision.sx
     q, A, b, G, h, lb, ub = (

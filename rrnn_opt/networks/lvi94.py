@@ -51,5 +51,5 @@ class Lvi94(ProjectionMap):
 
 
 def length(error: ca.SX, step: ca.SX) -> ca.SX:
-    """The step length rho of ``Lvi94``; 0 at a solution."""
+    """``rho = |error|^2 / |step|^2`` of ``Lvi94``, a scalar; 0 at a solution."""
     return ca.sumsqr(error) / ca.fmax(ca.sumsqr(step), TINY)

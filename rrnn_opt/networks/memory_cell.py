@@ -18,7 +18,7 @@ class MemoryCell:
     With activity x in [0, 1] and input I (1 after an exploration that did not
     reach its target, 0 after one that did):
 
-        dx/dt = -A x + (1 - x) (I + w [x]^+)
+        dx/dt = -A x + (1 - x) (I + w [x]^+)                           (14)
 
     On [0, 1] this is the Riccati equation x' = I - beta x - w x^2 with
     beta = A + I - w, whose flow over a time T is, with
@@ -28,8 +28,8 @@ class MemoryCell:
                / ((2 w x + beta) (1 - E) + D (1 + E)).
 
     Attributes:
-        decay: A > 0, passive decay rate, 1/unit of time.
-        self_excitation: w > 0, w != A.
+        decay: A of (14), positive, passive decay rate, 1/unit of time.
+        self_excitation: w > 0, w != A, 1/unit of time.
         duration: T > 0, time that one exploration takes, units of time.
 
     Raises:
@@ -53,21 +53,21 @@ class MemoryCell:
             raise RrnnError("memory cell: A = w has no exponential flow; change w")
 
     def derivative(self, x: ca.SX, stimulus: ca.SX) -> ca.SX:
-        """Right-hand side of (14).
+        """Right-hand side of (14), a scalar, 1 a unit of time.
 
         Args:
-            x: activity, scalar.
-            stimulus: I >= 0, scalar.
+            x: activity, scalar, 1.
+            stimulus: I >= 0, scalar, 1.
         """
         excitation = stimulus + self.self_excitation * ca.fmax(x, 0)
         return -self.decay * x + (1 - x) * excitation
 
     def flow(self, x: ca.SX, stimulus: ca.SX) -> ca.SX:
-        """Activity after one exploration; exact for x in [0, 1], I >= 0.
+        """Activity x(T) after one exploration, a scalar; exact for x in [0, 1], I >= 0.
 
         Args:
-            x: activity before, scalar.
-            stimulus: I, constant over the exploration, scalar.
+            x: activity before, scalar, 1.
+            stimulus: I, constant over the exploration, scalar, 1.
         """
         w = self.self_excitation
         beta = self.decay + stimulus - w

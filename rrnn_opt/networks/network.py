@@ -62,7 +62,7 @@ class Network(ABC):
 
     @abstractmethod
     def __call__(self, form: Formulation) -> NeuralDynamics | DiscreteDynamics:
-        """The network of ``form``."""
+        """The network of ``form``: ``x' = f(x, parameters)``, or ``x+ = g(x, ..)``."""
 
     @abstractmethod
     def needs(self, form: Formulation) -> Needs:
@@ -89,7 +89,7 @@ class Network(ABC):
             **parameters: one array a parameter of the formulation.
 
         Returns:
-            The bound; infinite for a map, 0 where none is promised.
+            The bound, s; infinite for a map, 0 where none is promised.
         """
 
 

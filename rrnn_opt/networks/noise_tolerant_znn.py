@@ -27,13 +27,14 @@ class NoiseTolerantZnn(Network):
 
     The integral s is a state of its own.  A constant disturbance of the law is
     cancelled by it (s comes to rest at noise/integral), where ``Znn`` is left
-    with the error noise/gamma.
+    with the error noise/gamma.  The linear solve is damped as
+    ``A P^-1 A' + delta I``.
 
     Attributes:
         gamma: rate, 1/s.
-        integral: gain of the integral, 1/s^2; the modes s^2 + gamma s +
+        integral: gain of the integral, 1/s2; the modes s^2 + gamma s +
             integral = 0 are real up to gamma^2 / 4.
-        damping: of the solve; see ``kkt``.
+        damping: delta of the solve ``A P^-1 A' + delta I``, 1.
 
     Raises:
         RrnnError: a number is not positive and finite.

@@ -31,8 +31,9 @@ class SimplifiedLviPdnn(ProjectionNetwork[NeuralDynamics]):
         RrnnError: gamma or delta is not positive and finite.
 
     Source:
-        The form in public code of Y. Zhang's school (S-LVI-PDNN); that it is
-        (6) is our reading, held by a test.
+        Ours is the reading that it is (6) of Li, Li, Hannaford (IEEE TII 2019),
+        held by a test; the form is that in public code of Y. Zhang's school
+        (S-LVI-PDNN).
     """
 
     definite = True

@@ -19,18 +19,20 @@ from rrnn_opt.symbolic.symbol import Symbol
 @checked()
 @dataclass(frozen=True)
 class VaryingGainZnn(Network):
-    """``d error / dt = -min(g, cap) error``, g' = growth g while g < cap.
+    """``d error / dt = -min(g, cap) error`` with a gain g that grows.
 
-    On the KKT equations, with g(0) = gamma: the gain is gamma exp(growth t)
-    until it is capped.  The published gains grow without end, which no fixed
-    step survives; the cap is what makes it run on a computer, and gives it an
-    equilibrium.
+        g' = growth g  while g < cap,    g(0) = gamma
+
+    on the KKT equations: the gain is gamma exp(growth t) until it is capped.
+    The published gains grow without end, which no fixed step survives; the cap
+    is what makes it run on a computer, and gives it an equilibrium.  The linear
+    solve is damped as ``A P^-1 A' + delta I``.
 
     Attributes:
         gamma: gain at the start, 1/s.
         growth: rate of the gain, 1/s.
         cap: largest gain, 1/s, above gamma.
-        damping: of the solve; see ``kkt``.
+        damping: delta of the solve ``A P^-1 A' + delta I``, 1.
 
     Raises:
         RrnnError: a number is not positive and finite, or the cap is not above

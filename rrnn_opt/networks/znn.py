@@ -24,11 +24,12 @@ class Znn(Network):
 
     The data may move: told their rates, the network follows the optimum with
     no lag, the error fading as exp(-gamma t).  It solves a linear system in
-    every step, and equality-constrained programmes only.
+    every step, damped as ``A P^-1 A' + delta I`` (see ``kkt``), and
+    equality-constrained programmes only.
 
     Attributes:
         gamma: rate, 1/s.
-        damping: of the solve; see ``kkt``.
+        damping: delta of the solve ``A P^-1 A' + delta I``, 1.
 
     Raises:
         RrnnError: gamma or damping is not positive and finite.

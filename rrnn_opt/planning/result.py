@@ -46,7 +46,7 @@ class PlanStats:
         memory_cell: activity before each exploration.
         refinements: searches after the first, for a shorter path.
         first_path_length: of the path as found, rad or m in joint space.
-        path_length: of the path kept.
+        path_length: of the path kept, likewise, rad or m.
         time_s: whole call.
         plan_time_s: search with its step certificates.
         refine_time_s: shortening, further searches included.
@@ -102,7 +102,7 @@ class PlanResult:
     Attributes:
         status: one of ``EXIT_CODES``.
         message: one sentence.
-        path: waypoints, (N, nv), or None.
+        path: waypoints, (N, nv), rad or m, or None.
         trajectory: document of the delivered trajectory, or None.
         certificate: document of its certificate.
         stats: counts and times.

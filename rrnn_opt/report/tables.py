@@ -61,8 +61,8 @@ def check_line(
     Args:
         name: what was checked.
         holds: whether it holds.
-        number: what was measured.
-        limit: its largest allowed value.
+        number: what was measured, in the unit that the name says.
+        limit: its largest allowed value, likewise.
     """
     text = f"{PASS if holds else FAIL}  {name}"
     if number is not None:

@@ -23,7 +23,7 @@ def draw_tracking(
         t: s, (n,).
         reference: where the tip should be, (n, 3), m.
         tip: where it was, (n, 3), m.
-        share: joint velocities over their limits, (n, nv).
+        share: joint velocities over their limits, (n, nv), 1.
         title: of the picture.
     """
     from matplotlib.figure import Figure

@@ -82,19 +82,27 @@ class Kinematics:
         return R_joint @ R, p_joint + R_joint @ p
 
     def joint_frames(self) -> list[ca.SX]:
-        """Pose of every tree joint's frame after its motion, 4x4 each, m."""
+        """Pose of every tree joint's frame after its motion, nj of (4, 4), m.
+
+        With the joint's placement P_k and its value v_k = multiplier q + offset,
+
+            T_k = T_parent P_k M_k(v_k),
+
+        M_k the turn by v_k about the joint's axis (Rodrigues), or the shift along
+        it.
+        """
         return [homogeneous(R, p) for R, p in self._frames]
 
     def origins(self) -> ca.SX:
-        """Origins of the joint frames in the base, (3, nj), m."""
+        """Origins ``o_k`` of the joint frames, ``T_k = [R_k o_k; 0 1]``, (3, nj), m."""
         return ca.horzcat(*[p for _, p in self._frames])
 
     def axes(self) -> ca.SX:
-        """Joint axes in the base, unit columns, (3, nj)."""
+        """Joint axes in the base, unit columns ``z_k = R_k a_k``, (3, nj)."""
         return ca.horzcat(*self._axes)
 
     def pose(self, frame: str | None = None) -> ca.SX:
-        """Pose of a frame in the base, (4, 4), m; the tip without a name.
+        """Pose of a frame in the base, ``T(q) = T_joint(q) placement``, (4, 4), m.
 
         Args:
             frame: its name; the tip without one.
@@ -105,7 +113,7 @@ class Kinematics:
         return homogeneous(*self._pose(frame))
 
     def position(self, frame: str | None = None) -> ca.SX:
-        """Origin of a frame in the base, (3, 1), m; the tip without a name.
+        """Origin r of a frame in the base, ``T(q) = [R r; 0 1]``, (3, 1), m.
 
         Args:
             frame: its name; the tip without one.
@@ -118,9 +126,12 @@ class Kinematics:
     def jacobian(self, frame: str | None = None, *, kind: str = POSITION) -> ca.SX:
         """Geometric Jacobian of a frame, in the axes of the base.
 
-        Column of a revolute joint: z x (p - o), and z; of a prismatic joint:
-        z, and 0.  A mimic joint adds its column, times its multiplier, to
-        that of the coordinate which drives it.
+            (v, w) = J(q) qd,    revolute:   J_k = (z_k x (p - o_k), z_k)
+                                 prismatic:  J_k = (z_k, 0)
+
+        with v the velocity of the frame's origin p and w its angular velocity.
+        A mimic joint adds its column, times its multiplier, to that of the
+        coordinate which drives it.
 
         Args:
             frame: name of the frame; the tip without a name.
@@ -128,7 +139,8 @@ class Kinematics:
                 "pose" for six rows, linear then angular.
 
         Returns:
-            SX (3, nv) or (6, nv).
+            SX (3, nv) or (6, nv); linear rows in m/rad (1 where a joint
+            slides), angular rows in rad/rad (0 where it slides).
 
         Raises:
             RobotError: there is no such frame.
@@ -157,13 +169,15 @@ class Kinematics:
     ) -> ca.SX:
         """Time derivative of the Jacobian along joint velocities.
 
+            dJ/dt = sum_j (dJ/dq_j) qd_j
+
         Args:
             frame: name of the frame; None for the tip.
             qd: joint velocities, (nv, 1), rad/s or m/s.
             kind: as in ``jacobian``.
 
         Returns:
-            SX of the Jacobian's shape.
+            SX (3, nv) or (6, nv), in units of the Jacobian per second.
 
         Raises:
             RobotError: there is no such frame.
@@ -177,7 +191,7 @@ class Kinematics:
         return ca.densify(ca.reshape(flat, *jacobian.shape))
 
     def sphere_centres(self) -> ca.SX:
-        """Centres of the collision spheres in the base, (3, ns), m."""
+        """Centres of the collision spheres in the base, ``o + R c``, (3, ns), m."""
         centres = []
         for sphere in self.robot.spheres:
             centre = ca.SX(sphere.center)
@@ -188,9 +202,9 @@ class Kinematics:
         return ca.horzcat(*centres) if centres else ca.SX.zeros(3, 0)
 
     def manipulability(self, frame: str | None = None) -> ca.SX:
-        """Yoshikawa's measure sqrt(det(J J')) of the position Jacobian.
+        """Yoshikawa's measure of the position Jacobian.
 
-        Source: T. Yoshikawa, Int. J. Robotics Research 4(2), 1985.
+            w = sqrt(det(J J'))
 
         Rows in which the arm cannot move at all (z of a planar arm) are left
         out; with fewer joints than rows it is sqrt(det(J' J)).
@@ -198,8 +212,15 @@ class Kinematics:
         Args:
             frame: its name; the tip without one.
 
+        Returns:
+            w, a scalar SX, m3 for three rows of revolute joints, m2 for two.
+
         Raises:
             RobotError: there is no such frame.
+
+        Source:
+            T. Yoshikawa, Int. J. Robotics Research 4(2), 1985.  Leaving out
+            rows, and J'J for few joints, are ours.
         """
         jacobian = self.jacobian(frame)
         rows = [i for i in range(3) if not jacobian[i, :].is_zero()]

@@ -21,12 +21,12 @@ from rrnn_opt.robot.robot import PRISMATIC, JointTree
 
 
 def joint_increments(tree: JointTree, u: ca.SX) -> list[ca.SX]:
-    """Increment of each joint for coordinate increments ``u`` (nv, 1)."""
+    """``dq_k = multiplier_k u_source(k)`` of each joint, nj scalars, rad or m."""
     return [float(tree.multiplier[k]) * u[int(tree.source[k])] for k in range(tree.nj)]
 
 
 def motion_bound(tree: JointTree, u: ca.SX, reach: ca.SX, mask: ca.SX) -> ca.SX:
-    """B of the module's docstring.
+    """B of the module's docstring, ``|p(s) - p(0) - s J dq| <= s^2 / 2 B(dq)``, m.
 
     Args:
         tree: the joints.
@@ -49,7 +49,9 @@ def motion_bound(tree: JointTree, u: ca.SX, reach: ca.SX, mask: ca.SX) -> ca.SX:
 
 
 def travel(tree: JointTree, u: ca.SX, reach: ca.SX, mask: ca.SX) -> ca.SX:
-    """Upper bound of the way that the centre goes: sum_k |dq_k| R_k (1 if pris).
+    """Upper bound of the way that the centre goes, ``sum_k |dq_k| R_k``, m.
+
+    R_k is 1 for a prismatic joint.
 
     Args and shapes are those of :func:`motion_bound`; the result is in m.
     """

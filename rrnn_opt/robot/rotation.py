@@ -9,11 +9,14 @@ from rrnn_opt.robot.tree import Array
 
 
 def rotation_about(axis: Array, angle: ca.SX) -> ca.SX:
-    """Rodrigues' rotation about a unit axis, c I + (1 - c) a a' + s [a]x.
+    """Rodrigues' rotation about a unit axis, ``R = c I + (1 - c) a a' + s [a]x``.
 
     Args:
         axis: a, (3,), of unit length.
         angle: with cosine c and sine s, rad.
+
+    Returns:
+        R, (3, 3); columns are the turned axes.
     """
     c, s = ca.cos(angle), ca.sin(angle)
     a = [float(value) for value in axis]
@@ -27,6 +30,6 @@ def rotation_about(axis: Array, angle: ca.SX) -> ca.SX:
 
 
 def homogeneous(R: ca.SX, p: ca.SX) -> ca.SX:
-    """The pose [R p; 0 1], (4, 4)."""
+    """The pose ``T = [R p; 0 1]``, (4, 4)."""
     bottom = ca.SX(np.array([[0.0, 0.0, 0.0, 1.0]]))
     return ca.densify(ca.vertcat(ca.horzcat(R, p), bottom))

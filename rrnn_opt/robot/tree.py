@@ -78,8 +78,8 @@ class JointTree:
         placements: pose of the joint frame in its parent joint's frame when
             the joint value is zero, (nj, 4, 4), m.
         axes: unit axis in the joint frame, (nj, 3).
-        source: coordinate that drives the joint, (nj,).
-        multiplier: (nj,).
+        source: index of the coordinate that drives the joint, (nj,).
+        multiplier: of the coordinate, (nj,), a ratio.
         offset: rad or m, (nj,).
     """
 

@@ -29,7 +29,7 @@ Primitive = Callable[[ca.SX, ca.SX], tuple[ca.SX, ca.SX]]
 
 
 def box(p: ca.SX, shape: ca.SX) -> tuple[ca.SX, ca.SX]:
-    """Distance of a point to a box: the corner rule on ``|y_i| - h_i``.
+    """Distance of a point to a box: the corner rule on ``a_i = |y_i| - h_i``.
 
     Args:
         p: point in world axes, (3, 1), m.
@@ -66,6 +66,8 @@ def cylinder(p: ca.SX, shape: ca.SX) -> tuple[ca.SX, ca.SX]:
 def capsule(p: ca.SX, shape: ca.SX) -> tuple[ca.SX, ca.SX]:
     """Distance of a point to a capsule: to its segment, less the radius.
 
+    ``d = |y - (0, 0, z)| - radius`` with z the point's, cut at half the length.
+
     Args:
         p: point in world axes, (3, 1), m.
         shape: packed capsule, (16, 1).
@@ -80,7 +82,7 @@ def capsule(p: ca.SX, shape: ca.SX) -> tuple[ca.SX, ca.SX]:
 
 
 def sphere(p: ca.SX, shape: ca.SX) -> tuple[ca.SX, ca.SX]:
-    """Distance of a point to a ball.
+    """Distance of a point to a ball, ``d = |p - centre| - radius``.
 
     Args:
         p: point in world axes, (3, 1), m.

@@ -41,7 +41,7 @@ class Mesh:
     Attributes:
         name: shown in reports and witnesses.
         path: the file, .stl or .obj (others need trimesh).
-        scale: lengths of the file times this are metres.
+        scale: factor from lengths of the file to metres.
         position: of the file's origin, (3,), m.
         quat_xyzw: orientation, (4,).
         sha256: digest of the file; given, it must be this one.
@@ -107,7 +107,7 @@ class Mesh:
         """A header with the number of facets, then one half-space a facet.
 
         Returns:
-            (1 + k, 16); the header's entry 12 is k, its position the centre
+            (1 + k, 16), m; the header's entry 12 is k, its position the centre
             of the hull's box.
         """
         turned = self.normals @ self.rotation.T

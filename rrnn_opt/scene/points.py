@@ -71,7 +71,7 @@ class Points:
         }
 
     def pack(self) -> Array:
-        """One packed sphere a point, (n, 16)."""
+        """One packed sphere a point, (n, 16), m."""
         packed = np.zeros((len(self.centers), PACKED))
         packed[:, :9] = np.eye(3).ravel()
         packed[:, 9:12] = self.centers

@@ -95,7 +95,7 @@ class Box(_Named):
         return matrix_from_quaternion(self.quat_xyzw)
 
     def pack(self) -> Array:
-        """Rotation, position and half edges, (16,)."""
+        """Rotation (9), position (3), m, and half edges (3), m: (16,)."""
         return _packed(self.rotation, self.position, *(0.5 * self.size))
 
 
@@ -186,11 +186,11 @@ class Sphere(_Named):
 
     @property
     def rotation(self) -> Array:
-        """The identity, (3, 3)."""
+        """Axes as columns, (3, 3): the identity."""
         return np.eye(3)
 
     def pack(self) -> Array:
-        """Identity, position and radius, (16,)."""
+        """Rotation (9), position (3), m, and radius, m: (16,)."""
         return _packed(self.rotation, self.position, self.radius)
 
 
@@ -222,16 +222,16 @@ class HalfSpace(_Named):
 
     @property
     def rotation(self) -> Array:
-        """A frame whose third axis is the normal, (3, 3)."""
+        """Axes of a frame as columns, the third being the normal, (3, 3)."""
         return frame_around(self.normal)
 
     @property
     def position(self) -> Array:
-        """The origin: the offset alone places the plane, (3,)."""
+        """The origin, (3,), m: the offset alone places the plane."""
         return np.zeros(3)
 
     def pack(self) -> Array:
-        """Rotation, zeros and offset, (16,)."""
+        """Rotation (9), zeros (3) and offset, m: (16,)."""
         return _packed(self.rotation, self.position, self.offset)
 
 

@@ -25,6 +25,8 @@ def default_contacts(robot: Robot) -> tuple[int, ...]:
 def gaps(kin: Kinematics, spheres: Sequence[int], scene: Scene) -> tuple[ca.SX, ca.SX]:
     """Clearance and outward normal at the obstacle nearest to each sphere.
 
+        d_i = min over obstacles of distance(p_i) - radius_i,   n_i = dd_i/dp_i
+
     Args:
         kin: kinematics of the robot.
         spheres: indices of the robot's spheres.

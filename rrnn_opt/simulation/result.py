@@ -56,7 +56,10 @@ class SimulationResult:
 
     @property
     def command(self) -> Array:
-        """Velocity, acceleration or increment commanded, (rows, nv)."""
+        """Velocity (rad/s), acceleration (rad/s2) or increment (rad), (rows, nv).
+
+        Of a prismatic joint m/s, m/s2 or m.
+        """
         return self.record.command
 
     @property

@@ -105,6 +105,11 @@ class Signals:
     ) -> list[ca.SX]:
         """Values of the parameters, in order.
 
+            rd_dot -> rd_dot + kappa (rd - r(q)),   e_int -> e_int + dt (rd - r(q))
+
+        and the rest as the module's docstring says; rates of parameters are
+        their difference quotients.
+
         Args:
             parameters: of the network.
             rates: parameters that are rates of others, by the others' names.
@@ -125,7 +130,7 @@ class Signals:
 
     @property
     def following(self) -> ca.SX:
-        """Memory of the next period."""
+        """Memory of the next period, a column: ``memory -> memory+``."""
         return self._memory.column(2)
 
     def start(self) -> ca.Function:

@@ -83,7 +83,7 @@ class Noise:
             and its difference quotient to the rd_ddot;
             "acceleration": added to the joint acceleration, rad/s2; for a
             scheme of velocities its sum times dt is added to the velocity.
-        sigma: standard deviation.
+        sigma: standard deviation, in the unit of what it enters.
         seed: of the generator.
     """
 

@@ -104,7 +104,8 @@ class ActiveSet(DenseSession):
     Attributes:
         mode: "cold" factors the Hessian in every solve; "stream" only one that
             is not the last one.
-        tolerance: KKT residual that counts as solved.
+        tolerance: KKT residual that counts as solved, in the unit of the rows.
+        name: what tables call it; not for the caller to set.
     """
 
     mode: str = "cold"

@@ -30,7 +30,8 @@ class Farkas:
     Attributes:
         y: multipliers of the equalities, (meq,), in [-1, 1].
         z: multipliers of the inequalities, (mineq,), in [0, 1].
-        margin: the m above, positive: how far the rows are from being met.
+        margin: the m above, positive, in the unit of the rows: how far they are
+            from being met.
     """
 
     y: Array

@@ -45,7 +45,8 @@ class OsqpSession(DenseSession):
     Attributes:
         mode: "warm", or "cold": the last answer is forgotten before each solve.
         settings: OSQP's own; the tight ones by default.
-        tolerance: KKT residual that counts as solved.
+        tolerance: KKT residual that counts as solved, in the unit of the rows.
+        name: what tables call it; not for the caller to set.
     """
 
     mode: str = "warm"
@@ -109,7 +110,8 @@ class DaqpSession(DenseSession):
     Attributes:
         mode: "warm" keeps the last active set; "cold" sets up anew each time.
         settings: DAQP's own; the tight ones by default.
-        tolerance: KKT residual that counts as solved.
+        tolerance: KKT residual that counts as solved, in the unit of the rows.
+        name: what tables call it; not for the caller to set.
     """
 
     mode: str = "warm"

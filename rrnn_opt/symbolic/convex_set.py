@@ -24,7 +24,7 @@ class ConvexSet(ABC):
             x: point, (n, 1) SX or (n,) array.
 
         Returns:
-            ``argmin_{y in C} |y - x|``, in the form that ``x`` has.
+            ``argmin_{y in C} |y - x|``, in the form of ``x``, (n, 1) or (n,).
 
         Raises:
             ShapeError: x has another shape.
@@ -32,7 +32,7 @@ class ConvexSet(ABC):
 
     @abstractmethod
     def support(self, y: Value) -> Value:
-        """Support function ``sup_{x in C} y'x``; may be infinite.
+        """Support function ``sup_{x in C} y'x``, a scalar; may be infinite.
 
         Args:
             y: direction, (n, 1) SX or (n,) array.
@@ -55,7 +55,10 @@ class ConvexSet(ABC):
 
         Args:
             x: point, (n, 1) SX or (n,) array.
-            y: candidate normal, of the same form.
+            y: candidate normal, in the form of ``x``.
+
+        Returns:
+            The difference, in the form of ``x``.
         """
         require_shape(x, (self.n, 1), "point")
         require_shape(y, (self.n, 1), "normal")
@@ -66,7 +69,7 @@ class ConvexSet(ABC):
 
         Args:
             x: point, (n, 1) SX or (n,) array.
-            y: candidate normal, of the same form.
+            y: candidate normal, in the form of ``x``.
             tolerance: allowed size of every element of ``normal_cone(x, y)``.
         """
         return is_small(self.normal_cone(x, y), tolerance)

@@ -76,7 +76,7 @@ class Lagrangian:
 
     @property
     def point(self) -> ca.SX:
-        """The stacked z = (u, lambda, mu)."""
+        """The stacked z = (u, lambda, mu), (n + p + m, 1)."""
         return ca.vertcat(*(s.sx for s in self.symbols))
 
     @property
@@ -91,7 +91,7 @@ class Lagrangian:
 
     @property
     def map(self) -> ca.SX:
-        """F(z) = (dL/du, -e, -g): monotone, as P is positive semidefinite."""
+        """F(z) = (dL/du, -e, -g), (n + p + m, 1): monotone, as P is semidefinite."""
         u, qp = self.qp.decision.sx, self.qp
         parts = [self.gradient]
         if self.equality_dual is not None:
@@ -118,7 +118,7 @@ class Lagrangian:
 
     @property
     def residual(self) -> ca.SX:
-        """``P_Z(z - F(z)) - z``, zero exactly at the KKT points.
+        """``P_Z(z - F(z)) - z``, (n + p + m, 1), zero exactly at the KKT points.
 
         Its parts are ``P_Omega(u - dL/du) - u``, e, and ``max(mu + g, 0) - mu``.
         """

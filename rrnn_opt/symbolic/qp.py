@@ -37,8 +37,8 @@ class QP:
         decision: u, (n, 1).
         parameters: what the data depend on.
         P: Hessian, (n, n), constant, symmetric positive semidefinite.
-        q: (n, 1).
-        r: (1, 1).
+        q: linear term, (n, 1), unit of the cost over that of u.
+        r: constant term, (1, 1), unit of the cost.
         A: (p, n); p = 0 without equalities.
         b: (p, 1).
         G: (m, n); m = 0 without inequalities.

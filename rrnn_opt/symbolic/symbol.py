@@ -18,7 +18,11 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z")
 
 
 def shape_of(value: Value) -> tuple[int, int]:
-    """Shape of an expression or array; a 1-d array of n numbers is (n, 1)."""
+    """Rows and columns of an expression or array; an array (n,) is (n, 1).
+
+    Args:
+        value: SX or array of any shape of at most two dimensions.
+    """
     shape = tuple(int(n) for n in value.shape)
     return (shape[0], 1) if len(shape) == 1 else shape  # type: ignore[return-value]
 
@@ -31,7 +35,7 @@ def require_shape(value: Value, shape: tuple[int, int], name: str) -> None:
     constructor calls this function.
 
     Args:
-        value: SX expression, or array; a 1-d array counts as a column.
+        value: SX or array of any shape; a 1-d array counts as a column.
         shape: required (rows, columns).
         name: what the value is, for the message.
 
@@ -47,10 +51,10 @@ def require_shape(value: Value, shape: tuple[int, int], name: str) -> None:
 
 
 def dense(value: Value, shape: tuple[int, int], name: str) -> ca.SX:
-    """``value`` as a dense SX expression of the required shape.
+    """``value`` as a dense SX expression of ``shape``.
 
     Args:
-        value: SX, DM or array.
+        value: SX, DM or array of any shape; other shapes than asked are refused.
         shape: required (rows, columns).
         name: what the value is, for the message.
 
@@ -70,7 +74,7 @@ class Symbol:
 
     Attributes:
         name: a C identifier.
-        sx: the CasADi symbol, dense.
+        sx: the CasADi symbol, dense, of any shape.
         unit: SI unit, e.g. "rad/s"; "1" when there is none.
         meaning: half a sentence for the documentation.
 
@@ -159,7 +163,7 @@ def require_declared(expr: ca.SX, symbols: tuple[Symbol, ...], name: str) -> Non
     """Refuse an expression with a free variable that no symbol declares.
 
     Args:
-        expr: any SX.
+        expr: SX of any shape.
         symbols: what it may depend on.
         name: what the expression is, for the message.
 

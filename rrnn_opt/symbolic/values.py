@@ -43,7 +43,7 @@ def number(symbol: Symbol, value: ArrayLike) -> Array:
 def arguments(
     symbols: tuple[Symbol, ...], given: Mapping[str, ArrayLike], where: str
 ) -> list[Array]:
-    """Numbers for all ``symbols``, in their order.
+    """Numbers for all ``symbols``, in their order, each in the shape of its symbol.
 
     Args:
         symbols: what is wanted.

@@ -34,7 +34,7 @@ class Instance:
         lemma: number of the lemma.
         arguments: SX by variable of the lemma, in the claim's variables.
         element: of the lemma's goal.
-        factor: SX; not negative term by term, unless the lemma is an equation.
+        factor: scalar SX; not negative term by term, unless the lemma is an equation.
     """
 
     lemma: int
@@ -50,7 +50,7 @@ class Given:
     Attributes:
         hypothesis: number among those of the claim that have a relation, from 0.
         element: of it.
-        factor: SX; not negative term by term, unless it is an equation.
+        factor: scalar SX; not negative term by term, unless it is an equation.
     """
 
     hypothesis: int
@@ -63,8 +63,8 @@ class Square:
     """``factor * of^2``.
 
     Attributes:
-        of: SX.
-        factor: SX; not negative term by term.
+        of: scalar SX.
+        factor: scalar SX; not negative term by term.
     """
 
     of: ca.SX

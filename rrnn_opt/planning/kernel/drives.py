@@ -25,7 +25,15 @@ def emitted_function(
 def tip_jacobian(
     tree: JointTree, moving: tuple[int, ...], axes: ca.SX, origins: ca.SX, tip: ca.SX
 ) -> ca.SX:
-    """Position Jacobian of the tip from the world axes, (3, nv)."""
+    """Position Jacobian of the tip, ``dp/dq``, (3, nv), m/rad or 1.
+
+    Args:
+        tree: the joints.
+        moving: indices of the joints that move the tip.
+        axes: world axes of the joints, (3, nj).
+        origins: world origins of the joints, (3, nj), m.
+        tip: p, (3, 1), m.
+    """
     mask = ca.SX([float(k in moving) for k in range(tree.nj)])
     eye = ca.SX.eye(3)
     return ca.vertcat(

@@ -58,7 +58,7 @@ class PaperRnn:
         c2: of (10), 1/s.
         step: of the integration, s.
         safe: clearance at and below which (12) holds, m.
-        share: of the goal's tolerance.
+        share: share of the goal's tolerance that the tip must reach.
         random_tolerance: m.
         stall_time: s after which the error is judged.
         stall_ratio: share of the error that must be left at most.
@@ -113,7 +113,7 @@ class SingleRollout:
         step: of the integration, s.
         c1: of (10), 1/s.
         c2: of (10), 1/s.
-        share: of the goal's tolerance.
+        share: share of the goal's tolerance that the tip must reach.
         stall_time: s after which the error is judged.
         stall_ratio: share of the error that must be left at most.
         max_time: of the rollout, s.

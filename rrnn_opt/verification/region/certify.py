@@ -66,7 +66,7 @@ def certify_region(
     Args:
         arm: a robot, or its kinematics.
         region: where; :meth:`Region.working` by default.
-        epsilon: of (18), positive.
+        epsilon: of (18), positive, s.
         delta: assume velocity bounds at least this far from 0, rad/s; by
             default those of (10) are taken, and must contain 0.
         error: E, the largest |e| spoken of, m.

@@ -71,13 +71,13 @@ class Region:
 
     @property
     def lower(self) -> NDArray[np.float64]:
-        """Lower ends, (nv,)."""
+        """Lower ends, (nv,), rad or m."""
         ends: NDArray[np.float64] = np.subtract(self.centre, self.half_widths)
         return ends
 
     @property
     def upper(self) -> NDArray[np.float64]:
-        """Upper ends, (nv,)."""
+        """Upper ends, (nv,), rad or m."""
         ends: NDArray[np.float64] = np.add(self.centre, self.half_widths)
         return ends
 
@@ -125,7 +125,7 @@ class RegionMap:
         robot: its name.
         region: what was asked about.
         joints: the two joints that the tiles divide.
-        epsilon: of (18).
+        epsilon: of (18), s.
         error: E, the largest |e| spoken of, m.
         floor: boxes with sigma_min below it are not certified, m.
         cells: tiles, the second joint running fastest.
@@ -145,7 +145,7 @@ class RegionMap:
 
     @property
     def share(self) -> float:
-        """Certified part of the region's volume."""
+        """Certified share of the region's volume."""
         return float(np.mean([cell.share for cell in self.cells]))
 
     @property
