@@ -1,12 +1,7 @@
 """Forward kinematics and geometric Jacobian of a robot, written in CasADi SX.
 
-The recursion over the tree is
-
-    T_k(q) = T_parent(k)(q) P_k exp(v_k a_k),    v_k = m_k q_source(k) + b_k
-
-with placement P_k, axis a_k (a turn about it, or a shift along it) and the
-mimic coupling m_k, b_k.  CasADi drops multiplications by exact 0 and 1 as the
-graph is built, so exact placements give a lean graph.
+CasADi drops multiplications by exact 0 and 1 as the graph is built, so exact
+placements give a lean graph.
 """
 
 from __future__ import annotations
@@ -25,6 +20,11 @@ POSITION, POSE = "position", "pose"
 
 class Kinematics:
     """Symbolic kinematics of a robot; every expression is in the symbol ``q``.
+
+        T_k(q) = T_parent(k)(q) P_k exp(v_k a_k),    v_k = m_k q_source(k) + b_k
+
+    with placement P_k, axis a_k (a turn about it, or a shift along it) and the
+    mimic coupling m_k, b_k.
 
     Attributes:
         robot: the robot.
@@ -82,15 +82,7 @@ class Kinematics:
         return R_joint @ R, p_joint + R_joint @ p
 
     def joint_frames(self) -> list[ca.SX]:
-        """Pose of every tree joint's frame after its motion, nj of (4, 4), m.
-
-        With the joint's placement P_k and its value v_k = multiplier q + offset,
-
-            T_k = T_parent P_k M_k(v_k),
-
-        M_k the turn by v_k about the joint's axis (Rodrigues), or the shift along
-        it.
-        """
+        """Pose ``T_k`` of every joint's frame after its motion, nj of (4, 4), m."""
         return [homogeneous(R, p) for R, p in self._frames]
 
     def origins(self) -> ca.SX:
