@@ -116,10 +116,9 @@ class Kinematics:
         return self._pose(frame)[1]
 
     def jacobian(self, frame: str | None = None, *, kind: str = POSITION) -> ca.SX:
-        """Geometric Jacobian of a frame, in the axes of the base.
+        """Geometric Jacobian of a frame, ``(v, w) = J(q) qd`` in the base's axes.
 
-            (v, w) = J(q) qd,    revolute:   J_k = (z_k x (p - o_k), z_k)
-                                 prismatic:  J_k = (z_k, 0)
+            revolute: J_k = (z_k x (p - o_k), z_k),    prismatic: J_k = (z_k, 0)
 
         with v the velocity of the frame's origin p and w its angular velocity.
         A mimic joint adds its column, times its multiplier, to that of the
