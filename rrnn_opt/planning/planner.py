@@ -26,6 +26,7 @@ from rrnn_opt.planning.search.feasibility import (
 from rrnn_opt.planning.search.library import SLICE_S, Runtime, Search
 from rrnn_opt.planning.search.refine import length, refine
 from rrnn_opt.planning.search.request import pack
+from rrnn_opt.planning.search.tool import tool_blocked
 from rrnn_opt.planning.search.trees import tree_document
 from rrnn_opt.planning.searches import open_search, runtime_for
 from rrnn_opt.planning.settings.planners import PLANNERS, PlannerSettings
@@ -122,7 +123,18 @@ def _planned(
                 return _delivered(run, search, runtime, goals)
         except KeyboardInterrupt:
             return run.result("interrupted", "interrupted; what was found is kept")
-        return run.result(status, _why(status, run, goals))
+        return _without_path(run, status, goals)
+
+
+def _without_path(run: Run, status: str, goals: OpenGoals) -> PlanResult:
+    """Why there is no path; where no goal posture was found perhaps with a proof."""
+    if status == "no_goal_posture":
+        proofs = [tool_blocked(run.problem, goal) for goal in goals.tips]
+        known = [proof for proof in proofs if proof is not None]
+        if len(known) == len(proofs):
+            message, witness = known[0].message, known[0].witness
+            return run.result("infeasible", message, witness=witness)
+    return run.result(status, _why(status, run, goals))
 
 
 def _search(
