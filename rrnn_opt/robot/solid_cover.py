@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.robot.ball import directions, outermost, smallest_ball
+from rrnn_opt.robot.polygons import cut
 from rrnn_opt.robot.tree import Array
 
 PADDING = 2e-4
@@ -200,7 +201,7 @@ def halves(
     best: list[Part] = [part]
     least = (np.inf, np.inf)
     for axis in axes.T[extent > _FLAT * extent.max()]:
-        found = [_part(side, surface, burden, most) for side in _cut(corners, axis)]
+        found = [_part(side, surface, burden, most) for side in cut(corners, axis)]
         cost = _cost(found)
         if burden is not None:
             load = sum(burden(p.center, p.radius) for p in found)
@@ -212,43 +213,3 @@ def halves(
 
 def _cost(parts: list[Part]) -> tuple[float, float]:
     return max(p.bulge for p in parts), sum(p.radius for p in parts)
-
-
-def _cut(corners: Array, axis: Array) -> list[Array]:
-    """Polygons on both sides of the plane across the middle of an axis."""
-    spread = corners @ axis
-    height = spread - 0.5 * (spread.min() + spread.max())
-    below, above = np.all(height <= 0.0, axis=1), np.all(height >= 0.0, axis=1)
-    crossed = ~below & ~above
-    sides = []
-    for whole, sign in ((below, -1.0), (above & ~below, 1.0)):
-        both = zip(corners[crossed], sign * height[crossed], strict=True)
-        sides.append(_joined(corners[whole], [_clipped(*each) for each in both]))
-    return [side for side in sides if len(side)]
-
-
-def _clipped(polygon: Array, height: Array) -> Array:
-    """Corners (k, 3) of the part of a polygon where the height is not negative."""
-    fresh = np.any(polygon != np.roll(polygon, 1, axis=0), axis=1)
-    corners, height = polygon[fresh], height[fresh]
-    kept: list[Array] = []
-    for k in range(len(corners)):
-        a, b = height[k], height[k - 1]
-        if a * b < 0.0:
-            kept.append(corners[k] + a / (a - b) * (corners[k - 1] - corners[k]))
-        if a >= 0.0:
-            kept.append(corners[k])
-    return np.array(kept)
-
-
-def _joined(polygons: Array, more: list[Array]) -> Array:
-    """All polygons in one array, the last corner of the shorter ones repeated.
-
-    A polygon that is cut stays one: it has a corner more at most.  Triangles would
-    double in number with each further cut along the same axis.
-    """
-    width = max([polygons.shape[1], *map(len, more)])
-    last = np.arange(width)
-    padded = [each[np.minimum(last, len(each) - 1)][None] for each in more]
-    wide = polygons[:, np.minimum(last, polygons.shape[1] - 1)]
-    return np.concatenate([wide, *padded])

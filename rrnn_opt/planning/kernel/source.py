@@ -37,6 +37,7 @@ RUNTIME = (
     "search.c",
     "segment.c",
     "shorten.c",
+    "open.c",
     "api.c",
 )
 PREFIX = "rrnn_planner_"
