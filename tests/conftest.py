@@ -4,9 +4,19 @@ import signal
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from tests.docstrings import House
 from tests.syntax import read_house
+
+settings.register_profile(
+    "steady",
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.load_profile("steady")
+"""Laws hold on the same examples everywhere, however busy the machine is."""
 
 
 @pytest.fixture(scope="session")

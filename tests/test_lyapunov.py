@@ -11,7 +11,7 @@ from rrnn_opt.lyapunov import LyapunovFunction
 from rrnn_opt.networks.primal_dual import PrimalDual
 from rrnn_opt.symbolic import Box, Symbol
 
-LAWS = settings(derandomize=True, max_examples=25, deadline=None)
+LAWS = settings(max_examples=25)
 EPSILON = 0.1
 
 

@@ -36,7 +36,7 @@ def tapes(wild_functions):
 
 
 @pytest.mark.parametrize("real", DTYPES)
-@settings(derandomize=True, deadline=None, max_examples=150)
+@settings(max_examples=150)
 @given(pick=st.integers(0, 23), numbers=st.lists(plain | odd, min_size=8, max_size=8))
 @pytest.mark.filterwarnings("ignore:overflow encountered in cast")
 def test_c_equals_numpy_to_the_bit(programs, tapes, real, pick, numbers):
@@ -52,7 +52,7 @@ def test_c_equals_numpy_to_the_bit(programs, tapes, real, pick, numbers):
         assert (both_nan | (c_bits == np.ascontiguousarray(value).view(bits))).all()
 
 
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(pick=st.integers(0, 9), numbers=st.lists(plain, min_size=8, max_size=8))
 def test_c_equals_casadi(programs, tame_functions, pick, numbers):
     x, a = arrays(numbers, np.float64)

@@ -92,7 +92,7 @@ def test_a_hanging_command_is_killed_with_its_children(tmp_path):
     start = time.monotonic()
     with pytest.raises(CompilerError, match=r"did not end within 0\.3 s"):
         run([str(tool)], timeout=0.3)
-    assert time.monotonic() - start < 5
+    assert time.monotonic() - start < 30  # not the minute of its child
     child = int(mark.read_text())
     for _ in range(50):
         if not alive(child):

@@ -83,7 +83,7 @@ def test_a_compiler_whose_version_never_comes(tmp_path, cache, monkeypatch):
     begin = time.monotonic()
     with pytest.raises(CompilerError, match="cannot be run"):
         build(SOURCE, name="answer")
-    assert time.monotonic() - begin < 10
+    assert time.monotonic() - begin < 30  # not its minute
 
 
 def test_a_path_with_spaces_may_be_quoted_or_not(tmp_path, cache, monkeypatch):

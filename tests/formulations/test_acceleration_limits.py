@@ -11,7 +11,7 @@ from rrnn_opt.formulations.acceleration_limits import (
 )
 from rrnn_opt.robot import Limits
 
-LAWS = settings(derandomize=True, max_examples=80, deadline=None)
+LAWS = settings(max_examples=80)
 SHARES = st.lists(st.floats(0, 1), min_size=3, max_size=3).map(np.array)
 LIMITS = Limits(
     lower=np.array([-1.0, -np.inf, 0.2]),

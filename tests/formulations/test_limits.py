@@ -8,7 +8,7 @@ from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.robot import Limits
 
-LAWS = settings(derandomize=True, max_examples=60, deadline=None)
+LAWS = settings(max_examples=60)
 LIMITS = Limits(
     lower=np.array([-1.0, -np.inf, 0.2]),
     upper=np.array([2.0, np.inf, 0.4]),

@@ -27,7 +27,7 @@ from tests.formulations.points import (
     unit_normals,
 )
 
-LAWS = settings(derandomize=True, max_examples=40, deadline=None)
+LAWS = settings(max_examples=40)
 UPRIGHT = np.array([np.pi / 2, 0.0, 0.0])
 LEFT_WALL = np.array([[1.0], [0.0], [0.0]])  # outward normal of a wall at the left
 

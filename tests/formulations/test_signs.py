@@ -9,7 +9,7 @@ from rrnn_opt.formulations.contacts import contacts_of
 from rrnn_opt.formulations.signs import Band, entry_magnitudes, sign_jacobian
 from tests.formulations.points import posture, sphere_jacobian, unit_normals
 
-LAWS = settings(derandomize=True, max_examples=60, deadline=None)
+LAWS = settings(max_examples=60)
 BAND = Band(inner=0.03, outer=0.11)
 
 

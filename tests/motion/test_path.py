@@ -19,7 +19,7 @@ def test_length_and_points_of_a_known_path():
     np.testing.assert_array_equal(path.at([-1.0, 99.0]), [[0, 0], [3, 5]])
 
 
-@settings(max_examples=50, deadline=None, derandomize=True)
+@settings(max_examples=50)
 @given(seed=st.integers(0, 10**6), spacing=st.floats(0.05, 3.0))
 def test_resampling_keeps_the_ends_and_stays_on_the_path(seed, spacing):
     path = Path(polyline(seed))

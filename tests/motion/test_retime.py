@@ -16,7 +16,7 @@ def corners(seed, n=5, nv=4, size=1.0):
     return np.random.default_rng(seed).uniform(-size, size, (n, nv))
 
 
-@settings(max_examples=15, deadline=None, derandomize=True)
+@settings(max_examples=15)
 @given(seed=st.integers(0, 10**6), spacing=st.sampled_from([0.3, 0.1, 0.05]))
 def test_limits_hold_between_rows_and_ends_are_exact(seed, spacing, limits_of, dense):
     points, limits = corners(seed), limits_of(4)

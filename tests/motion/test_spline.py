@@ -11,7 +11,7 @@ def smooth(points, spacing=0.1, scale=1.0):
     return SmoothPath(Path(points), spacing=spacing, scale=scale)
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=40)
 @given(seed=st.integers(0, 10**6), spacing=st.floats(0.02, 2.0))
 def test_it_stays_in_the_box_of_its_polyline(seed, spacing):
     points = np.random.default_rng(seed).normal(size=(5, 3))

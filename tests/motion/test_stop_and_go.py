@@ -7,7 +7,7 @@ from rrnn_opt.errors import NotFiniteError, RetimeError, ShapeError
 from rrnn_opt.motion import stop_and_go
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=40)
 @given(seed=st.integers(0, 10**6), scale=st.sampled_from([1e-7, 1e-3, 1.0, 10.0]))
 def test_it_runs_on_the_polyline_within_its_limits(seed, scale, limits_of, dense):
     points = np.random.default_rng(seed).normal(size=(4, 3)) * scale

@@ -17,7 +17,7 @@ def flow(cell: MemoryCell, x: float, stimulus: float) -> float:
     return float(cell.function()(x, stimulus))
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(UNIT, UNIT, st.floats(0.1, 2.0), st.floats(0.1, 2.0), st.floats(0.05, 3.0))
 def test_flow_is_the_solution_of_the_differential_equation(x, i, decay, w, duration):
     if abs(decay - w) < 1e-2:
@@ -36,7 +36,7 @@ def test_flow_is_the_solution_of_the_differential_equation(x, i, decay, w, durat
     assert flow(cell, x, i) == pytest.approx(answer.y[0, -1], abs=1e-7)
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=200)
 @given(UNIT, UNIT)
 def test_activity_stays_in_the_unit_interval(x, stimulus):
     assert 0.0 <= flow(MemoryCell(), x, stimulus) <= 1.0

@@ -61,6 +61,6 @@ def test_chains_are_planned_and_proved(joints):
     tips = [np.array(position(s * goal)).ravel() for s in (0.0, 0.5, 1.0)]
     ball = Ball("ball", 0.03, tips[1] + 0.09 * np.array([0.0, 0.6, 0.8]))
     problem = Problem(robot, start, goals=(JointGoal(goal),), scene=Scene((ball,)))
-    result = rr.plan(problem, seed=3, time_limit=20)
+    result = rr.plan(problem, seed=3)
     assert result.status == "solved", result.message
     assert result.certificate["collision_free"] == "PROVED"

@@ -1,6 +1,7 @@
 """``plan``: what each case is called, and that a solved plan really is one."""
 
 import json
+import time
 
 import numpy as np
 import pytest
@@ -130,9 +131,10 @@ def test_budget_and_time_limit_are_told_apart(window_problem):
     }
     problem = Problem.from_dict(data)
     assert plan(problem, max_explorations=50).status == "budget_exhausted"
+    begin = time.process_time()
     late = plan(problem, time_limit=0.05, max_explorations=10**9)
     assert late.status == "time_limit"
-    assert late.stats.plan_time_s < 0.5
+    assert time.process_time() - begin < 2.0
 
 
 def test_margin_is_kept_by_the_delivered_trajectory(window_problem):

@@ -82,7 +82,7 @@ def test_a_cloud_stands_for_a_wall(tmp_path, window_problem):
     data = window_problem(obstacles=[cloud])
     problem = Problem.from_dict(data, base_dir=tmp_path)
     assert len(points) > 15_000
-    result = rr.plan(problem, seed=2, time_limit=20)
+    result = rr.plan(problem, seed=2)
     assert result.status == "solved", result.message
     q = np.array(result.trajectory["q"])
     crossed = {**cloud, "path": str(tmp_path / "x.npy")}

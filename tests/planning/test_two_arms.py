@@ -67,7 +67,7 @@ def test_both_arms_of_baxter_move_and_keep_apart(robot):
     assert any("right_wrist" in pair for pair in arms)
     for seed, problem in enumerate(scenes(robot, 3, seed=0)):
         assert isinstance(problem, Problem)
-        result = plan(problem, seed=seed, time_limit=20.0)
+        result = plan(problem, seed=seed)
         assert result.status == "solved", result.message
         moved = np.ptp(np.array(result.trajectory["q"]), axis=0)
         assert np.all(moved > 1e-3)  # every joint of both arms

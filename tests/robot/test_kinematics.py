@@ -77,7 +77,7 @@ def uncoupled(robot):
     return Robot("tree", names, own, box, robot.frames, robot.tip)
 
 
-@settings(max_examples=60, derandomize=True, deadline=None)
+@settings(max_examples=60)
 @given(robot=trees(), seed=st.integers(0, 2**16))
 def test_random_coupled_trees_agree_with_pinocchio(robot, seed, oracle):
     free = uncoupled(robot)
@@ -98,7 +98,7 @@ def test_random_coupled_trees_agree_with_pinocchio(robot, seed, oracle):
     assert np.abs(jacobian - expected).max() <= 4 * TOLERANCE
 
 
-@settings(max_examples=10, derandomize=True, deadline=None)
+@settings(max_examples=10)
 @given(robot=trees(), seed=st.integers(0, 2**16))
 def test_jacobian_and_its_rate_are_derivatives(robot, seed):
     kin, qd = Kinematics(robot), ca.SX.sym("qd", robot.nv)

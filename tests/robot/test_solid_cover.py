@@ -26,7 +26,7 @@ def area(polygons: Array) -> float:
     return 0.5 * float(np.linalg.norm(np.cross(rays, after), axis=2).sum())
 
 
-@settings(deadline=None, max_examples=6, phases=[Phase.explicit, Phase.generate])
+@settings(max_examples=6, phases=[Phase.explicit, Phase.generate])
 @example(600, [False, True] * 7)
 @given(st.integers(0, 10_000), st.lists(st.booleans(), max_size=14))
 def test_cut_again_and_again(seed: int, sides: list[bool]) -> None:

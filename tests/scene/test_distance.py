@@ -175,7 +175,7 @@ def test_nearest_point_is_on_the_surface_and_normal_is_the_gradient(kind):
         assert np.allclose(np.array(slope) / 2e-6, n, atol=2e-4)
 
 
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(
     kind=st.sampled_from([k for k in KINDS if k != "halfspace"]),
     seed=st.integers(0, 10**6),

@@ -104,7 +104,7 @@ def test_thousands_of_programmes_are_solved_like_daqp(robot):
     assert max(gaps) <= 1e-6
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.integers(0, 2**32 - 1), st.sampled_from(SIZES))
 def test_its_multipliers_satisfy_the_kkt_conditions(seed, size):
     problem = Dense.of(random_problem(np.random.default_rng(seed), *size))

@@ -19,13 +19,13 @@ def problem(seed: int, stretch: float) -> qpsolvers.Problem:
 
 
 @given(seed=st.integers(0, 10_000))
-@settings(max_examples=30, deadline=None, derandomize=True)
+@settings(max_examples=30)
 def test_a_feasible_problem_has_no_witness(seed):
     assert find_farkas(problem(seed, 1.0)) is None
 
 
 @given(seed=st.integers(0, 10_000), data=st.data())
-@settings(max_examples=30, deadline=None, derandomize=True)
+@settings(max_examples=30)
 def test_no_multipliers_ever_refute_a_feasible_problem(seed, data):
     number = st.floats(-1, 1)
     y = np.array(data.draw(st.lists(number, min_size=2, max_size=2)))

@@ -90,7 +90,7 @@ def test_importing_the_package_registers_nothing():
 
 
 @given(seed=st.integers(0, 10_000))
-@settings(max_examples=20, deadline=None, derandomize=True)
+@settings(max_examples=20)
 def test_random_programmes_have_the_optimum_and_multipliers_of_daqp(seed):
     assert_same(random_qp(seed))
 

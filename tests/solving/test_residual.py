@@ -32,7 +32,7 @@ def optimal_qp(seed: int) -> tuple[qpsolvers.Problem, np.ndarray, Duals]:
 
 
 @given(seed=st.integers(0, 10_000))
-@settings(max_examples=50, deadline=None, derandomize=True)
+@settings(max_examples=50)
 def test_a_constructed_optimum_has_no_residual(seed):
     problem, x, duals = optimal_qp(seed)
     assert kkt_residual(problem, x, duals).worst < 1e-12
@@ -40,7 +40,7 @@ def test_a_constructed_optimum_has_no_residual(seed):
 
 
 @given(seed=st.integers(0, 10_000))
-@settings(max_examples=30, deadline=None, derandomize=True)
+@settings(max_examples=30)
 def test_the_residuals_are_those_that_qpsolvers_computes(seed):
     problem, x, duals = optimal_qp(seed)
     x = x + np.random.default_rng(seed).normal(size=x.size) * 0.1

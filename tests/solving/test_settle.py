@@ -19,7 +19,7 @@ def truth(form, **params):
 
 
 @given(seed=st.integers(0, 1000))
-@settings(max_examples=15, deadline=None, derandomize=True)
+@settings(max_examples=15)
 def test_the_equilibrium_is_the_optimum_with_its_multipliers(
     form, network, posture, seed
 ):

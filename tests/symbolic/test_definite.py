@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from rrnn_opt.symbolic.definite import negative_direction
 
-LAWS = settings(derandomize=True, max_examples=80, deadline=None)
+LAWS = settings(max_examples=80)
 integers = st.integers(-3, 3)
 squares = st.integers(1, 5).flatmap(
     lambda n: st.lists(

@@ -12,7 +12,7 @@ from rrnn_opt.formulation import Formulation
 from rrnn_opt.symbolic import Symbol
 
 N, EQ, INEQ = 5, 2, 2
-LAWS = settings(derandomize=True, max_examples=30, deadline=None)
+LAWS = settings(max_examples=30)
 seeds = st.integers(0, 10**6)
 
 

@@ -53,7 +53,7 @@ def test_standard_form_by_hand():
     np.testing.assert_array_equal(problem.ub, [5.0, np.inf, 7.0])
 
 
-@settings(derandomize=True, max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(x=st.lists(st.floats(-3, 3), min_size=3, max_size=3).map(np.array))
 def test_standard_form_has_the_values_of_the_declaration(x):
     form = FORM

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.symbolic import Ball, Box, Orthant, Product, whole_space
 
-LAWS = settings(derandomize=True, max_examples=40, deadline=None)
+LAWS = settings(max_examples=40)
 N = 4
 ROUND = 1e-12
 

@@ -159,7 +159,7 @@ def test_a_mutation_that_slips_through_is_seen():
 coefficients = st.lists(st.integers(-3, 3), min_size=4, max_size=4)
 
 
-@settings(max_examples=25, deadline=None, derandomize=True)
+@settings(max_examples=25)
 @given(coefficients)
 def test_cubics_are_never_misjudged(c):
     """Against exact values on a grid and the sign of the coefficients."""

@@ -36,7 +36,13 @@ def region() -> rr.Region:
 @pytest.fixture(scope="module")
 def found(planar, region):
     return rr.certify_region(
-        planar, region, epsilon=EPSILON, error=ERROR, grid=(3, 3), budget_s=20.0, jobs=1
+        planar,
+        region,
+        epsilon=EPSILON,
+        error=ERROR,
+        grid=(3, 3),
+        budget_s=300.0,
+        jobs=1,
     )
 
 
@@ -160,7 +166,7 @@ def test_map_is_written_and_drawn(found, tmp_path):
 def test_pa10_working_region_is_certified():
     kin = rr.Kinematics(rr.Robot.builtin("pa10"))
     region = rr.Region.working(kin, half_width=0.2)
-    found = rr.certify_region(kin, region, epsilon=EPSILON, grid=(4, 4), budget_s=20.0)
+    found = rr.certify_region(kin, region, epsilon=EPSILON, grid=(4, 4), budget_s=300.0)
     assert found.share == 1.0
     assert found.sigma > 0.1
     rng = np.random.default_rng(2)

@@ -15,7 +15,7 @@ from rrnn_opt.motion import Trajectory
 NUMBER = st.floats(-10, 10, allow_nan=False, width=32)
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=200)
 @given(
     q=st.tuples(NUMBER, NUMBER),
     qd=st.tuples(NUMBER, NUMBER),
@@ -34,7 +34,7 @@ def test_rationals_and_doubles_agree_outside_the_rounding(q, qd, h, kind):
     assert not cubic.keeps(kind, (0.0, h), q, qd, most - room)
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=100)
 @given(top=st.integers(-20, 20), at=st.integers(1, 7), steep=st.integers(1, 9))
 def test_a_position_that_touches_its_limit_is_kept_and_one_ulp_less_is_not(
     top, at, steep

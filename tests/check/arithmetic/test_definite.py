@@ -42,7 +42,7 @@ square = st.integers(1, 6).flatmap(
 )
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=100)
 @given(square)
 def test_against_eigenvalues(rows):
     a = np.array(rows)

@@ -137,7 +137,7 @@ JUNK = st.one_of(
 )
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=400)
 @given(data=st.data())
 def test_only_our_own_errors_come_out(data, request):
     plan = copy.deepcopy(request.getfixturevalue("plan"))

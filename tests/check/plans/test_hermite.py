@@ -68,7 +68,7 @@ def exact_pieces(t, q, qd):
 NUMBER = st.floats(-10, 10, allow_nan=False, width=32)
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=200)
 @given(
     q=st.tuples(NUMBER, NUMBER),
     qd=st.tuples(NUMBER, NUMBER),
@@ -93,7 +93,7 @@ def test_every_exact_value_is_in_the_range_with_its_rounding(q, qd, h, share):
         assert exact[k] <= Fraction(float(high[0, 0] + error[k][0, 0]))
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=100)
 @given(bulge=st.floats(0.01, 3.0), h=st.floats(0.01, 5.0))
 def test_a_bulge_between_equal_rows_is_found(bulge, h):
     """Equal ends, speeds +v and -v: the parabola's top is v h / 4 above."""

@@ -95,7 +95,7 @@ def places(value, path=()):
             yield from places(value[key], (*path, key))
 
 
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(st.data())
 def test_mutated_problems_are_read_or_refused(data):
     problem = copy.deepcopy(valid())

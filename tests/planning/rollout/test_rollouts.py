@@ -248,9 +248,7 @@ def test_paper_solves_what_needs_no_luck_and_its_path_is_proved():
 @pytest.mark.parametrize("planner", ["method1", "method2"])
 def test_single_rollouts_say_that_they_are_single(planner):
     """Around the ball and in front of it; z is no task of a planar arm."""
-    solved = plan(
-        Problem.from_dict(document(obstacles=[])), planner=planner, time_limit=10.0
-    )
+    solved = plan(Problem.from_dict(document(obstacles=[])), planner=planner)
     assert solved.status == "solved"
     result = plan(Problem.from_dict(walled()), planner=planner, max_explorations=50)
     assert result.status == "budget_exhausted"

@@ -1,6 +1,8 @@
 """Refinement: shorter, same ends, still proved, and decided by the seed."""
 
 import itertools
+import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -69,20 +71,25 @@ def test_a_segment_with_clearance_is_harder(pa10_runtime, window_problem, open_s
         assert not search.segment_free(problem.start, same, clearance=1.1 * gap)
 
 
-def test_improving_goes_on_until_its_seconds_are_spent(window_problem):
+def test_improving_goes_on_until_its_seconds_are_spent(window_problem, monkeypatch):
+    """Seconds of CPU here, so that others on the machine take none of them."""
+    clock = SimpleNamespace(perf_counter=time.process_time)
+    monkeypatch.setattr("rrnn_opt.planning.search.refine.time", clock)
     problem = Problem.from_dict(
         window_problem(start=scenario("window").problem(42)["start"])
     )
     settings = RandomRnn(refinements=0)
     first = plan(problem, seed=2, settings=settings)
+    begin = time.process_time()
     better = plan(problem, seed=2, settings=settings, improve_s=0.5)
+    assert time.process_time() - begin < 5.0
     assert first.stats.refinements == 0
     assert better.stats.refinements > 3
     assert better.solved
     assert better.stats.first_path_length == first.stats.first_path_length
     assert better.stats.path_length < first.stats.path_length
     assert better.stats.path_length == pytest.approx(length(better.path))
-    assert 0.5 <= better.stats.refine_time_s < 5.0
+    assert better.stats.refine_time_s >= 0.5
     with pytest.raises(ProblemError, match="improve"):
         plan(problem, improve_s=-1.0)
 

@@ -147,7 +147,7 @@ def exact_value(graph: ClaimGraph, point: dict[str, Fraction]) -> Fraction:
     return Fraction(0)
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(trees(), rationals, rationals, rationals)
 def test_normal_forms_keep_the_value(tree, a, b, c):
     graph = graph_of(tree)
@@ -165,7 +165,7 @@ def test_normal_forms_keep_the_value(tree, a, b, c):
     assert total == exact_value(graph, point)
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=40)
 @given(trees(UNITS), trees(UNITS), trees(UNITS))
 def test_distributive_law_on_random_trees(a, b, c):
     assert vanishes((a + ca.sin(x * b)) * c - (a * c + ca.sin(b * x) * c))

@@ -61,7 +61,7 @@ small = st.fractions(-3, 3, max_denominator=4)
 
 
 @pytest.mark.parametrize("expression", GRAPHS)
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(small, small)
 def test_laws_hold_at_every_point(expression, a, b):
     found = setting(expression)

@@ -89,7 +89,7 @@ def test_normals_are_gradients(name):
 
 
 @pytest.mark.parametrize("name", KINDS)
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(seed=st.integers(0, 10**6))
 def test_any_direction_gives_a_true_lower_bound(name, seed):
     """gap(n) <= d for every unit n, with equality at the normal outside."""

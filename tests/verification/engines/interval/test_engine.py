@@ -159,7 +159,7 @@ def test_unbounded_domain_is_said():
 
 @pytest.fixture(scope="module")
 def certificate():
-    (document,) = engine.propose(eigenvalue(0.03), budget_s=10.0, seed=0)
+    (document,) = engine.propose(eigenvalue(0.03), budget_s=300.0, seed=0)
     assert check_certificate(document).status == "PROVED"
     return document
 

@@ -27,7 +27,7 @@ def test_no_value_of_a_random_graph_is_outside():
 
 
 @pytest.mark.slow
-@settings(max_examples=20, deadline=None, derandomize=True)
+@settings(max_examples=20)
 @given(st.integers(1, 10**6))
 def test_five_thousand_random_graphs_and_boxes(seed):
     outside, _ = batch(10**6 + seed, graphs=1, count=250)
@@ -35,7 +35,7 @@ def test_five_thousand_random_graphs_and_boxes(seed):
 
 
 @given(st.floats(-1e5, 1e5), st.floats(0.0, 10.0))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_waves_hold_ends_and_crests(waves, start, width):
     low, high = np.array([[start]]), np.array([[start + width]])
     found = waves(low, high)

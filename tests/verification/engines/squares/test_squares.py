@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import time
+import os
 from fractions import Fraction
 
 import casadi as ca
@@ -139,15 +139,20 @@ def conditioned(bound):
     return claim(sylvester, ">=0", (q,), hypotheses=(bent,))
 
 
+def worked():
+    """CPU seconds of this process and of the solvers that it ran."""
+    return sum(os.times()[:4])
+
+
 def test_the_planar_arm_is_well_conditioned_at_every_configuration():
     """All q1 and q3; the least eigenvalue that samples find is 0.0350863."""
-    begin = time.perf_counter()
+    begin = worked()
     verdict = settled(conditioned(0.03), "sos")
-    found = time.perf_counter() - begin
+    found = worked() - begin
     assert (verdict.status, verdict.trust) == ("PROVED", "exact")
-    begin = time.perf_counter()
+    begin = worked()
     check_certificate(verdict.certificate)
-    assert time.perf_counter() - begin < found / 10
+    assert worked() - begin < found / 10
 
 
 @pytest.mark.slow
@@ -174,7 +179,7 @@ def test_kernels_are_written_in_small_rationals():
 coefficients = st.lists(st.integers(-3, 3), min_size=6, max_size=6)
 
 
-@settings(max_examples=30, deadline=None, derandomize=True)
+@settings(max_examples=30)
 @given(coefficients)
 def test_quadratic_forms_are_judged_as_by_their_eigenvalues(c):
     a, b, d, e, f, g = c
