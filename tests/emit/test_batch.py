@@ -77,7 +77,9 @@ def test_sine_and_cosine_give_the_bits_of_the_scalar_code(lanes):
         np.testing.assert_array_equal(np.signbit(ours[0]), np.signbit(theirs[:, 0]))
 
 
-@pytest.mark.parametrize("name", ["pa10", "panda"])
+@pytest.mark.parametrize(
+    "name", [pytest.param("pa10", marks=pytest.mark.slow), "panda"]
+)
 def test_kinematics_agree_with_pinocchio(name):
     robot = rr.Robot.builtin(name)
     kin = rr.Kinematics(robot)

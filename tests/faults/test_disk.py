@@ -106,6 +106,7 @@ def test_a_limit_on_the_size_of_files(tmp_path, warm_cache):
     assert place.litter() == []
 
 
+@pytest.mark.slow
 def test_an_old_table_does_not_stand_beside_a_new_answer(place):
     assert place.rrnn("plan", "problem.json", "--out", "out").returncode == 0
     assert (place.out / "trajectory.csv").exists()

@@ -3,17 +3,10 @@
 from __future__ import annotations
 
 import ast
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
-SOURCES = sorted(
-    path
-    for folder in ("rrnn_opt", "formulations", "validation")
-    for path in (ROOT / folder).rglob("*.py")
-)
-WORKERS = ROOT / "rrnn_opt" / "study" / "processes.py"
+WORKERS = "rrnn_opt.study.processes"
 """It hands objects to the processes that it starts, and no file to anyone."""
 EVALUATES = {"eval", "exec", "compile", "__import__"}
 UNPICKLES = {"pickle", "shelve", "marshal", "dill", "cloudpickle", "joblib", "yaml"}
@@ -27,8 +20,11 @@ def calls(tree):
 
 
 @pytest.fixture(scope="module")
-def trees():
-    return {path: ast.parse(path.read_text(encoding="utf-8")) for path in SOURCES}
+def trees(house):
+    """Syntax by dotted name of every file; formulations and validation are linked."""
+    found = {name: module.tree for name, module in house.modules.items()}
+    assert {"rrnn_opt.formulations.slide", "rrnn_opt.validation"} <= set(found)
+    return found
 
 
 def test_nothing_is_unpickled(trees):
@@ -65,4 +61,4 @@ def test_no_text_is_run(trees):
 def test_users_programs_are_run_in_one_place(trees):
     runs = [path for path, tree in trees.items() for name, _ in calls(tree)
             if name.startswith("runpy.")]  # fmt: skip
-    assert runs == [ROOT / "rrnn_opt" / "files.py"]
+    assert runs == ["rrnn_opt.files"]

@@ -29,3 +29,20 @@ def test_without_a_trajectory_there_is_no_table(window, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "viser", None)
     paths = write_plan({**window, "trajectory": None}, tmp_path)
     assert [p.name for p in paths] == ["plan.json", "plan.png", "plan.html"]
+
+
+def test_an_earlier_plan_goes_before_anything_is_written(window, tmp_path, monkeypatch):
+    """Also where writing ends halfway: no table may stand beside another answer."""
+    names = ["trajectory.csv", "plan.png", "plan.html"]
+    for name in names:
+        (tmp_path / name).write_text("of an earlier plan")
+    seen = []
+
+    def full(path, text):
+        seen.append(sorted(file.name for file in tmp_path.iterdir()))
+        raise OSError("No space left on device")
+
+    monkeypatch.setattr("rrnn_opt.report.plan_files.write_text", full)
+    with pytest.raises(OSError, match="No space left"):
+        write_plan({**window, "trajectory": None}, tmp_path)
+    assert seen == [[]]

@@ -60,7 +60,7 @@ def test_every_pair_and_each_scheme_on_another_robot(robot, part):
 
 
 def test_the_least_shares_of_active_points_hold():
-    study = GroundTruth(("pa10",), 40, 40, ("method1", "task_augmentation"), ("Znn",))
+    study = GroundTruth(("pa10",), 20, 20, ("method1", "task_augmentation"), ("Znn",))
     for row in measured(study):
         points = row["points"]
         assert points["bound"] >= points["n"] / 3

@@ -46,7 +46,7 @@ def projected(size):
     return symbols, ca.fmin(ca.fmax(v.sx, low.sx), high.sx), box
 
 
-@pytest.mark.parametrize("size", [1, 7])
+@pytest.mark.parametrize("size", [1, 2, pytest.param(7, marks=SLOW)])
 def test_the_projection_lemma_of_any_number_of_joints_is_exact(size):
     """x'P(x) >= |P(x)|^2 when 0 is in the box, eq. (21) and more."""
     variables, p, box = projected(size)
