@@ -286,14 +286,22 @@ GROUPS = {
 }
 
 
-def attempt(calls: Callable[[], dict[str, Call]], rng: random.Random, _: Path) -> str:
+Maker = Callable[[random.Random], Any]
+
+
+def attempt(
+    calls: Callable[[], dict[str, Call]],
+    rng: random.Random,
+    _: Path,
+    make: Maker = mutation.argument,
+) -> str:
     """One call with one or two arguments replaced."""
     known = calls()
     name = rng.choice(sorted(known))
     function, given = known[name]
     changed = dict(given)
     for key in rng.sample(sorted(given), min(len(given), rng.choice((1, 1, 1, 2)))):
-        changed[key] = mutation.argument(rng)
+        changed[key] = make(rng)
     if rng.random() < 0.05:
         changed.pop(rng.choice(sorted(changed)))
     try:

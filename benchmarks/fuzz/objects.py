@@ -1,0 +1,190 @@
+"""Declarations, methods, sessions and compiled functions: what one has in hand.
+
+Beside what ``arguments`` gives, arrays come as numerical code has them: sparse, read
+only, in Fortran's order, as views with strides, of single precision, complex, masked,
+empty, of more axes.
+"""
+
+from __future__ import annotations
+
+import functools
+import random
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from benchmarks.fuzz import mutation
+from benchmarks.fuzz.arguments import Call, attempt
+from benchmarks.fuzz.judging import Entry
+
+
+def array(rng: random.Random) -> Any:
+    """An array as numerical code may hold it."""
+    import scipy.sparse as sparse
+
+    n = rng.choice((0, 1, 2, 3, 3, 3, 4, 7))
+    base = np.linspace(0.1, 0.9, max(n, 1) ** 2).reshape(max(n, 1), -1)
+    locked = base[0].copy()
+    locked.flags.writeable = False
+    makers: tuple[Callable[[], Any], ...] = (
+        lambda: sparse.csr_matrix(base),
+        lambda: sparse.csc_matrix(base[:1]),
+        lambda: locked,
+        lambda: np.asfortranarray(base),
+        lambda: np.repeat(base, 2, axis=0)[::2, ::-1],
+        lambda: base.astype(np.float32),
+        lambda: base[0].astype(np.float16),
+        lambda: base[0].astype(np.longdouble),
+        lambda: base.astype(complex),
+        lambda: np.ma.masked_array(base[0], mask=[True] * len(base)),
+        lambda: np.zeros((n, 0, 2)),
+        lambda: base.reshape(1, *base.shape),
+        lambda: np.matrix(base),
+        lambda: base[:, :1],
+        lambda: np.broadcast_to(np.array(0.5), (n,)),
+        lambda: base[0].byteswap().view(base.dtype.newbyteorder()),
+        lambda: np.array([(1.0, 2)], dtype=[("a", "f8"), ("b", "i4")]),
+        lambda: [np.array([0.1]), np.array([0.1, 0.2])],
+        lambda: base[0].tolist(),
+        lambda: memoryview(base[0].copy()),
+    )
+    return rng.choice(makers)()
+
+
+def argument(rng: random.Random) -> Any:
+    """An array, or anything that another call is given."""
+    return array(rng) if rng.random() < 0.5 else mutation.argument(rng)
+
+
+@functools.cache
+def declared() -> dict[str, Call]:
+    """Formulations, dynamics, functions of Lyapunov, streams."""
+    import casadi as ca
+
+    import rrnn_opt as rr
+    from rrnn_opt import networks, solving
+    from rrnn_opt.verification import catalogue
+
+    kin = rr.Kinematics(rr.Robot.builtin("planar3"))
+    form = rr.formulations.minimum_velocity(kin)
+    u, p = rr.Symbol.vector("u", 2), rr.Symbol.vector("p", 2)
+    x = rr.Symbol.vector("x", 2)
+    flow = {"name": "d", "state": x, "parameters": (p,), "output": x.sx}
+    flow |= {"residual": x.sx - p.sx, "multipliers": {}}
+    dyn = networks.LviPdnn()(form)
+    scheme = {"decision": u, "parameters": (p,), "cost": ca.dot(u.sx, u.sx) / 2}
+    scheme |= {"name": "f", "equalities": u.sx - p.sx, "inequalities": u.sx[0] - 1}
+    scheme |= {"lower": [-1.0, -1.0], "upper": [1.0, 1.0]}
+    value = rr.LyapunovFunction(ca.dot(x.sx, x.sx), x, (p,))
+    decay = rr.NeuralDynamics(**flow, derivative=-x.sx)
+    return {
+        "Formulation": (rr.Formulation, scheme),
+        "NeuralDynamics": (rr.NeuralDynamics, {**flow, "derivative": -x.sx}),
+        "DiscreteDynamics": (rr.DiscreteDynamics, {**flow, "next": 0.5 * x.sx}),
+        "LyapunovFunction": (
+            rr.LyapunovFunction,
+            {"value": ca.dot(x.sx, x.sx), "state": x, "parameters": (p,)},
+        ),
+        "V.derivative": (value.derivative, {"dynamics": decay}),
+        "network of a scheme": (networks.LviPdnn(), {"form": form}),
+        "Kinematics": (rr.Kinematics, {"robot": rr.Robot.builtin("planar3")}),
+        "slide": (rr.formulations.slide, {"kin": kin, "contacts": (0,)}),
+        "SettledNetwork": (
+            solving.SettledNetwork,
+            {"dynamics": dyn, "mode": "warm", "tolerance": 1e-9, "name": "n"},
+        ),
+        "catalogue.claims": (
+            catalogue.claims,
+            {"form": form, "network": networks.LviPdnn(), "kin": kin},
+        ),
+    }
+
+
+@functools.cache
+def handled() -> dict[str, Call]:
+    """Methods of what was made, and functions that were compiled."""
+    import casadi as ca
+    import qpsolvers
+
+    import rrnn_opt as rr
+    from rrnn_opt import emit, motion, networks, solving
+    from rrnn_opt.lyapunov import merit
+    from rrnn_opt.robot.restrict import restrict
+
+    arm = rr.Robot.builtin("planar3")
+    q = ca.SX.sym("q", 3)
+    function = ca.Function("f", [q], [ca.sin(q), q.T @ q], ["q"], ["s", "n"])
+    program = emit.compile([function], name="fuzzed")
+    batch = emit.compile_batch(function)
+    timed = motion.retime([[0.0, 0.0, 0.0], [0.1, 0.2, 0.3]], arm.limits)
+    box = rr.symbolic.Box(np.zeros(3), np.ones(3))
+    qp = qpsolvers.Problem(np.eye(2), np.ones(2), lb=-np.ones(2), ub=np.ones(2))
+    form = rr.formulations.minimum_velocity(rr.Kinematics(arm))
+    own = rr.NeuralDynamics(
+        "d", rr.Symbol("q", q), (), derivative=-q, output=q, residual=q, multipliers={}
+    )
+    room = program.call("f", np.ones(3))
+    return {
+        "Program.call": (_positional(program.call, "f"), {"q": np.ones(3)}),
+        "Program.call out": (
+            lambda **given: program.call("f", np.ones(3), **given),
+            {"out": room},
+        ),
+        "Program.bind": (
+            lambda **given: program.bind("f", np.ones(3), **given)(),
+            {"out": room},
+        ),
+        "Program.map": (
+            lambda q, n: program.map("f", q, n=n),
+            {"q": np.ones((4, 3)), "n": 4},
+        ),
+        "Batch": (_positional(batch), {"q": np.zeros((3, 5))}),
+        "Batch out": (
+            lambda **given: batch(np.zeros((3, 8)), **given),
+            {"out": batch.room(8)},
+        ),
+        "Trajectory.at": (timed.at, {"t": 0.1}),
+        "Trajectory.stretched": (timed.stretched, {"factor": 2.0}),
+        "Trajectory.from_dict": (motion.Trajectory.from_dict, {"data": {}}),
+        "Robot.frame": (arm.frame, {"name": "tip"}),
+        "restrict": (restrict, {"whole": arm, "locked": {arm.joint_names[0]: 0.1}}),
+        "Box.support": (box.support, {"y": [1.0, 0.0, 0.0]}),
+        "find_farkas": (solving.find_farkas, {"problem": qp, "tolerance": 1e-9}),
+        "farkas_margin": (
+            solving.farkas_margin,
+            {"problem": qp, "y": np.zeros(0), "z": np.zeros(0)},
+        ),
+        "DaqpSession": (_asked(solving.DaqpSession()), {"problem": qp}),
+        "OsqpSession": (_asked(solving.OsqpSession()), {"problem": qp}),
+        "ActiveSet": (_asked(solving.ActiveSet()), {"problem": qp}),
+        "compare": (
+            solving.compare,
+            {"stream": None, "solvers": [solving.DaqpSession()], "tolerances": None},
+        ),
+        "emit.compile": (emit.compile, {"functions": [function], "name": "g"}),
+        "compile_batch": (emit.compile_batch, {"fn": function, "lanes": 4}),
+        "dynamics.step": (own.step, {"method": rr.Euler(0.1)}),
+        "merit": (merit, {"dynamics": networks.LviPdnn()(form)}),
+    }
+
+
+def _positional(call: Callable[..., Any], *first: Any) -> Callable[..., Any]:
+    return lambda **given: call(*first, *given.values())
+
+
+def _asked(session: Any) -> Callable[..., Any]:
+    from rrnn_opt import solving
+
+    def answer(problem: Any) -> Any:
+        session.setup(solving.Instance(problem))
+        return session.solve()
+
+    return answer
+
+
+GROUPS = {"declarations in Python": declared, "methods and compiled code": handled}
+ENTRIES = tuple(
+    Entry(name, functools.partial(attempt, calls, make=argument), 2)
+    for name, calls in GROUPS.items()
+)
