@@ -147,6 +147,7 @@ class Dynamics(ABC):
         return ca.Function(name, inputs, [*outputs.values()], names, [*outputs])
 
 
+@checked(infinite=("longest_step",))
 @dataclass(frozen=True, eq=False)
 class NeuralDynamics(Dynamics):
     """``x' = f(x, parameters)``; see ``Dynamics`` for what is not listed here.
@@ -181,6 +182,7 @@ class NeuralDynamics(Dynamics):
         law = {"derivative": self.derivative}
         return {"derivative": self._function("derivative", law)} | self._common()
 
+    @checked()
     def step(self, method: Euler) -> DiscreteDynamics:
         """One step of an integrator, as a map."""
         extra = (method.h,) if isinstance(method.h, Symbol) else ()
@@ -200,6 +202,7 @@ class NeuralDynamics(Dynamics):
         )
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class DiscreteDynamics(Dynamics):
     """``x+ = g(x, parameters)``; see ``Dynamics`` for what is not listed here.
@@ -237,6 +240,7 @@ class DiscreteDynamics(Dynamics):
         law = {"next": self.next, "output": self.output}
         return {"step": self._function("step", law)} | self._common()
 
+    @checked()
     def step(self, method: Euler) -> DiscreteDynamics:
         """This map: one iteration has no step size.
 

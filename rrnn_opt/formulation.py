@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, get_args
+from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
 
-from rrnn_opt.errors import NotFiniteError, RrnnError, ShapeError
+from rrnn_opt.arguments import checked
+from rrnn_opt.errors import NotFiniteError, ShapeError
 from rrnn_opt.symbolic.lagrangian import Lagrangian
 from rrnn_opt.symbolic.qp import QP
 from rrnn_opt.symbolic.symbol import (
@@ -28,6 +29,7 @@ Level = Literal["velocity", "acceleration", "increment"]
 """What the joint entries of a decision are."""
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Formulation:
     """``min cost`` over u, s.t. ``equalities == 0, inequalities <= 0`` and bounds.
@@ -78,9 +80,6 @@ class Formulation:
 
     def __post_init__(self) -> None:
         n = self.decision.size
-        if self.level not in get_args(Level):
-            known = ", ".join(get_args(Level))
-            raise RrnnError(f"{self.name}: level '{self.level}'; use one of {known}")
         if self.decision.shape != (n, 1):
             raise ShapeError(f"{self.name}: decision", (n, 1), self.decision.shape)
         require_names((self.decision, *self.parameters), self.name)

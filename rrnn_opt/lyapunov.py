@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import DiscreteDynamics, Dynamics, NeuralDynamics
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.symbolic.symbol import (
@@ -17,6 +18,7 @@ from rrnn_opt.symbolic.symbol import (
 )
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class LyapunovFunction:
     """``V(x, p)`` over a state and parameters.
@@ -43,6 +45,7 @@ class LyapunovFunction:
         object.__setattr__(self, "value", dense(self.value, (1, 1), "V"))
         require_declared(self.value, (self.state, *self.parameters), "V")
 
+    @checked()
     def derivative(
         self,
         dynamics: NeuralDynamics,
@@ -83,6 +86,7 @@ class LyapunovFunction:
             raise RrnnError(f"V has no parameter {', '.join(map(repr, rates))}")
         return ca.densify(value)
 
+    @checked()
     def change(self, dynamics: DiscreteDynamics) -> ca.SX:
         """``V(g(x, p), p) - V(x, p)``: what one step does to V, data standing still.
 
@@ -107,6 +111,7 @@ class LyapunovFunction:
             )
 
 
+@checked()
 def merit(dynamics: Dynamics) -> LyapunovFunction:
     """``V = 1/2 |residual|^2``: zero exactly at the equilibria.
 

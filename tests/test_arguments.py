@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+import casadi as ca
 import numpy as np
 import pytest
 
 import rrnn_opt as rr
 from rrnn_opt.arguments import checked
-from rrnn_opt.errors import ArgumentError, NotFiniteError, RrnnError
-from rrnn_opt.motion import Path
+from rrnn_opt.errors import ArgumentError, NotFiniteError, RrnnError, ShapeError
+from rrnn_opt.motion import Path, Trajectory
 from rrnn_opt.networks import LviPdnn, PrimalDual
 from rrnn_opt.planning import RandomRnn
 from rrnn_opt.robot import Limits
@@ -108,3 +109,33 @@ def test_verbs_say_what_they_want():
         rr.plan()
     with pytest.raises(RrnnError, match="kin: expected a Kinematics, got 'planar3'"):
         rr.formulations.minimum_velocity("planar3")
+
+
+def test_what_compiled_code_is_given_is_no_number_that_it_would_cut():
+    """A complex array would lose its imaginary part, a ragged list its shape."""
+    q = ca.SX.sym("q", 3)
+    batch = rr.emit.compile_batch(ca.Function("odd", [q], [ca.sin(q)]))
+    for value in (np.ones((3, 2), complex), [[1.0], [2.0, 3.0]], "abc", {1, 2}):
+        with pytest.raises(ArgumentError, match="odd: array 0: expected numbers"):
+            batch(value)
+    with pytest.raises(ShapeError, match="odd: out"):
+        batch(np.ones((3, 8)), out=np.array(0.0))
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: LviPdnn()([1.0]), "ProjectionNetwork: form: expected a Formulation"),
+        (lambda: rr.Kinematics("pa10"), "Kinematics: robot: expected a Robot"),
+        (lambda: rr.emit.compile_batch(3), "compile_batch: fn: expected a Function"),
+        (
+            lambda: rr.LyapunovFunction(ca.SX(0), "x"),
+            "LyapunovFunction: state: expected a Symbol",
+        ),
+        (lambda: Trajectory.from_dict({"t": [0]}), "from_dict: there is no 'q'"),
+        (lambda: Trajectory.from_dict([1]), "Trajectory.from_dict: data: expected"),
+    ],
+)
+def test_declarations_and_methods_name_what_they_want(call, said):
+    with pytest.raises(ArgumentError, match=said):
+        call()

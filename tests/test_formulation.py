@@ -129,5 +129,5 @@ def test_the_level_is_one_of_three():
     assert form().level == "velocity"
     assert form().inverse == ""
     assert form(level="acceleration").level == "acceleration"
-    with pytest.raises(RrnnError, match="level 'torque'; use one of velocity"):
+    with pytest.raises(RrnnError, match="level: expected one of velocity"):
         form(level="torque")

@@ -40,14 +40,13 @@ def array(rng: random.Random) -> Any:
         lambda: np.ma.masked_array(base[0], mask=[True] * len(base)),
         lambda: np.zeros((n, 0, 2)),
         lambda: base.reshape(1, *base.shape),
-        lambda: np.matrix(base),
         lambda: base[:, :1],
         lambda: np.broadcast_to(np.array(0.5), (n,)),
         lambda: base[0].byteswap().view(base.dtype.newbyteorder()),
         lambda: np.array([(1.0, 2)], dtype=[("a", "f8"), ("b", "i4")]),
         lambda: [np.array([0.1]), np.array([0.1, 0.2])],
-        lambda: base[0].tolist(),
-        lambda: memoryview(base[0].copy()),
+        base[0].tolist,
+        functools.partial(memoryview, base[0].copy()),
     )
     return rng.choice(makers)()
 
@@ -128,11 +127,11 @@ def handled() -> dict[str, Call]:
     return {
         "Program.call": (_positional(program.call, "f"), {"q": np.ones(3)}),
         "Program.call out": (
-            lambda **given: program.call("f", np.ones(3), **given),
+            lambda out: program.call("f", np.ones(3), out=out),
             {"out": room},
         ),
         "Program.bind": (
-            lambda **given: program.bind("f", np.ones(3), **given)(),
+            lambda out: program.bind("f", np.ones(3), out=out)(),
             {"out": room},
         ),
         "Program.map": (
@@ -141,7 +140,7 @@ def handled() -> dict[str, Call]:
         ),
         "Batch": (_positional(batch), {"q": np.zeros((3, 5))}),
         "Batch out": (
-            lambda **given: batch(np.zeros((3, 8)), **given),
+            lambda out: batch(np.zeros((3, 8)), out=out),
             {"out": batch.room(8)},
         ),
         "Trajectory.at": (timed.at, {"t": 0.1}),

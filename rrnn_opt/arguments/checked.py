@@ -55,15 +55,22 @@ def checked(
             target.__init__ = init  # type: ignore[misc]
             return target
         guard = _Guard(target, None, skip)
+        where = _named(target)
 
         @functools.wraps(target)
         def call(*args: Any, **given: Any) -> Any:
-            args, given = guard(target.__name__, args, given)
+            args, given = guard(where, args, given)
             return target(*args, **given)
 
         return typing.cast(Checked, call)
 
     return decorate
+
+
+def _named(function: Callable[..., Any]) -> str:
+    """What a message calls it: a method with its class, a constructor by that alone."""
+    name = function.__qualname__.rpartition("<locals>.")[2]
+    return name.removesuffix(".__init__").removesuffix(".__call__")
 
 
 class _Guard:

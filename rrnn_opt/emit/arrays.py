@@ -86,7 +86,7 @@ class Slot:
     def _refuse(self, array: Array) -> None:
         """Say what is wrong with an array, if anything is."""
         if not isinstance(array, np.ndarray) or array.shape not in self.shapes:
-            raise ShapeError(self.name, self.shapes[0], np.shape(array))
+            raise ShapeError(self.name, self.shapes[0], _shape(array))
         if array.dtype != self.dtype:
             raise LayoutError(self.name, array.shape, f"pass dtype {self.dtype}")
         if not array.flags.f_contiguous:
@@ -102,11 +102,11 @@ class Slot:
             ShapeError: neither the shape of one value nor that of all rows.
             LayoutError: wrong type or memory order.
         """
-        if np.shape(array) in self.shapes:
+        if _shape(array) in self.shapes:
             return self.address(array), 0
         wanted = {(count, *shape) for shape in self.shapes}
         if type(array) is not np.ndarray or array.shape not in wanted:
-            raise ShapeError(self.name, (count, *self.shapes[0]), np.shape(array))
+            raise ShapeError(self.name, (count, *self.shapes[0]), _shape(array))
         if array.dtype != self.dtype:
             raise LayoutError(self.name, array.shape, f"pass dtype {self.dtype}")
         flat = array.swapaxes(1, 2) if array.ndim == 3 else array
@@ -120,6 +120,14 @@ class Slot:
         if len(self.shapes[0]) == 1:
             return np.empty((count, self.rows), self.dtype)
         return np.empty((count, self.columns, self.rows), self.dtype).swapaxes(1, 2)
+
+
+def _shape(value: Any) -> tuple[int, ...]:
+    """The shape of an array; none for what has no shape."""
+    try:
+        return np.shape(value)
+    except (ValueError, TypeError):
+        return ()
 
 
 def address_of(array: Array) -> int:

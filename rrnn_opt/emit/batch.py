@@ -6,10 +6,12 @@ import ctypes
 import platform
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import casadi as ca
 import numpy as np
 
+from rrnn_opt.arguments import checked, require_numeric
 from rrnn_opt.emit.arrays import Array
 from rrnn_opt.emit.c99 import require_identifier
 from rrnn_opt.emit.columns import (
@@ -93,11 +95,13 @@ class Batch:
                 is not from :meth:`room`, or shares memory with an argument.
             RrnnError: every argument is a single value.
         """
+        for k, array in enumerate(arrays):
+            require_numeric(array, f"{self.name}: array {k}")
         given = [np.asarray(a, np.float64) for a in arrays]
         n = columns_of(self.name, self.inputs, given)
         pairs = zip(self.inputs, given, strict=True)
         read = [rows_of(port, array, n) for port, array in pairs]
-        results = self.room(n) if out is None else tuple(out)
+        results = self.room(n) if out is None else _rooms(out)
         if len(results) != len(self.outputs):
             raise ShapeError(f"{self.name}: out", (len(self.outputs),), (len(results),))
         for port, result in zip(self.outputs, results, strict=True):
@@ -124,6 +128,12 @@ class Batch:
         return tuple(room_of(port, n) for port in self.outputs)
 
 
+def _rooms(out: Any) -> tuple[Array, ...]:
+    """The results that a caller brings; none where it brings something else."""
+    return tuple(out) if isinstance(out, list | tuple) else ()
+
+
+@checked()
 def compile_batch(
     fn: ca.Function, *, lanes: int | None = None, fused: bool = False
 ) -> Batch:

@@ -14,7 +14,7 @@ from rrnn_opt.emit.arrays import Array, Slot, address_of
 from rrnn_opt.emit.c99 import c_function, require_identifier
 from rrnn_opt.emit.host import Built, build, load
 from rrnn_opt.emit.prologue import Real, prologue
-from rrnn_opt.errors import RrnnError, ShapeError
+from rrnn_opt.errors import ArgumentError, RrnnError, ShapeError
 from rrnn_opt.symbolic.tape import Tape
 
 _MAP = """\
@@ -106,8 +106,8 @@ class Program:
             RrnnError: there is no such function.
         """
         entry = self._entry(name)
-        one, kept = entry.one, (arrays, tuple(out))
         where = (*_addresses(name, entry, arrays), *_targets(name, entry, out))
+        one, kept = entry.one, (arrays, tuple(out))
 
         def run(_kept: object = kept) -> None:
             one(*where)
@@ -133,6 +133,8 @@ class Program:
         """
         entry = self._entry(name)
         _require_count(f"{name}: arrays", entry.inputs, arrays)
+        if not isinstance(n, int | np.integer) or n < 0:
+            raise ArgumentError(f"{name}: n", "expected a number of rows")
         pairs = zip(entry.inputs, arrays, strict=True)
         where = [slot.batch(array, n) for slot, array in pairs]
         results = tuple(slot.new_batch(n) for slot in entry.outputs)
@@ -149,14 +151,15 @@ class Program:
     def _entry(self, name: str) -> Entry:
         try:
             return self.entries[name]
-        except KeyError:
+        except (KeyError, TypeError):
             known = ", ".join(self.entries)
             raise RrnnError(f"program has no '{name}'; it has {known}") from None
 
 
 def _require_count(what: str, slots: Sequence[Slot], arrays: Sequence[Array]) -> None:
-    if len(arrays) != len(slots):
-        raise ShapeError(what, (len(slots),), (len(arrays),))
+    given = len(arrays) if isinstance(arrays, list | tuple) else 0
+    if given != len(slots):
+        raise ShapeError(what, (len(slots),), (given,))
 
 
 def _addresses(name: str, entry: Entry, arrays: Sequence[Array]) -> list[int]:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rrnn_opt.arguments import checked
 from rrnn_opt.check.plans import hermite
-from rrnn_opt.errors import NotFiniteError, RetimeError, ShapeError
+from rrnn_opt.errors import ArgumentError, NotFiniteError, RetimeError, ShapeError
 
 Array = NDArray[np.float64]
 
@@ -79,6 +79,7 @@ class Trajectory:
         """The cubics between the rows."""
         return hermite.pieces(self.t, self.q, self.qd)
 
+    @checked()
     def at(self, t: ArrayLike) -> tuple[Array, Array, Array]:
         """Position, velocity and acceleration at any times.
 
@@ -99,6 +100,7 @@ class Trajectory:
         bends = np.asarray(2 * local.c2 + 6 * s * local.c3, dtype=np.float64)
         return hermite.position(local, s), rates, bends
 
+    @checked()
     def stretched(self, factor: float) -> Trajectory:
         """The same path, ``factor`` times slower.
 
@@ -122,6 +124,7 @@ class Trajectory:
         return {name: getattr(self, name) for name in ("t", "q", "qd", "qdd")}
 
     @staticmethod
+    @checked()
     def from_dict(data: Mapping[str, Any]) -> Trajectory:
         """A trajectory from the "trajectory" object of a plan.
 
@@ -129,7 +132,13 @@ class Trajectory:
 
         Args:
             data: lists "t" (s), "q" and "qd" by row.
+
+        Raises:
+            ArgumentError: one of them is missing.
         """
+        missing = [name for name in ("t", "q", "qd") if name not in data]
+        if missing:
+            raise ArgumentError("Trajectory.from_dict", f"there is no {missing[0]!r}")
         return Trajectory.from_rows(data["t"], data["q"], data["qd"])
 
     def write_csv(self, path: str | Path) -> None:

@@ -64,6 +64,7 @@ class FiniteTimeZnn(Network):
         if not self.power < 1.0:
             raise RrnnError(f"FiniteTimeZnn: power {self.power}: it must be below 1")
 
+    @checked()
     def __call__(self, form: Formulation) -> NeuralDynamics:
         """The network of ``form``; state (u, lambda), output u.
 

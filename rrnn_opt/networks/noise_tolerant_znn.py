@@ -58,6 +58,7 @@ class NoiseTolerantZnn(Network):
             damping=self.damping,
         )
 
+    @checked()
     def __call__(self, form: Formulation) -> NeuralDynamics:
         """The network of ``form``; state (u, lambda, s), output u.
 

@@ -9,6 +9,7 @@ from typing import ClassVar, Generic
 
 from numpy.typing import ArrayLike
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import DiscreteDynamics
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.networks import whitening
@@ -50,6 +51,7 @@ class ProjectionNetwork(Network, Generic[D]):
         del numbers["whiten"]
         require_positive(type(self).__name__, **numbers)
 
+    @checked()
     def __call__(self, form: Formulation) -> D:
         """The network of ``form``.
 

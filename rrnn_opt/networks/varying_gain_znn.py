@@ -61,6 +61,7 @@ class VaryingGainZnn(Network):
         if not self.cap > self.gamma:
             raise RrnnError(f"VaryingGainZnn: cap {self.cap} is not above gamma")
 
+    @checked()
     def __call__(self, form: Formulation) -> NeuralDynamics:
         """The network of ``form``; state (u, lambda, g), output u.
 

@@ -46,6 +46,7 @@ class Znn(Network):
     def __post_init__(self) -> None:
         require_positive("Znn", gamma=self.gamma, damping=self.damping)
 
+    @checked()
     def __call__(self, form: Formulation) -> NeuralDynamics:
         """The network of ``form``; state (u, lambda), output u.
 

@@ -10,6 +10,7 @@ from functools import cached_property
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.rotation import homogeneous, rotation_about
@@ -31,6 +32,7 @@ class Kinematics:
         q: joint coordinates, SX (nv, 1), rad or m.
     """
 
+    @checked()
     def __init__(self, robot: Robot) -> None:
         """Name the coordinates; expressions are built when asked for.
 

@@ -70,6 +70,7 @@ class Comparison:
     agrees: bool
 
 
+@checked()
 def compare(
     stream: Stream, solvers: Sequence[Solver], *, tolerances: Tolerances | None = None
 ) -> list[Comparison]:

@@ -15,8 +15,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from rrnn_opt.arguments import checked
+from rrnn_opt.errors import ShapeError
 from rrnn_opt.solving.parts import Array, Dense
 
 ROUNDING = 1e-12
@@ -39,15 +41,23 @@ class Farkas:
     margin: float
 
 
-def farkas_margin(problem: Any, y: Array, z: Array) -> float:
+@checked()
+def farkas_margin(problem: Any, y: ArrayLike, z: ArrayLike) -> float:
     """The minimum m above for given multipliers; -inf when it is unbounded.
 
     Args:
         problem: ``qpsolvers.Problem`` or ``Dense``.
         y: (meq,).
         z: (mineq,); negative entries are taken as zero.
+
+    Raises:
+        ShapeError: y or z has another number of rows than the problem.
     """
     qp = Dense.of(problem)
+    y, z = np.asarray(y, dtype=np.float64), np.asarray(z, dtype=np.float64)
+    for name, given, rows in (("y", y, qp.b), ("z", z, qp.h)):
+        if given.shape != rows.shape:
+            raise ShapeError(f"farkas_margin: {name}", rows.shape, given.shape)
     z = np.where(np.isfinite(qp.h), np.maximum(z, 0.0), 0.0)
     row = qp.A.T @ y + qp.G.T @ z
     scale = max(np.max(np.abs(qp.A), initial=0.0), np.max(np.abs(qp.G), initial=0.0))
@@ -59,6 +69,7 @@ def farkas_margin(problem: Any, y: Array, z: Array) -> float:
     return low - float(qp.b @ y + np.where(np.isfinite(qp.h), qp.h, 0.0) @ z)
 
 
+@checked()
 def find_farkas(problem: Any, *, tolerance: float = 1e-9) -> Farkas | None:
     """A witness that ``problem`` is infeasible, or None if none was found.
 

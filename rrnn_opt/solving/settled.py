@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import Dynamics
 from rrnn_opt.solving.dense_session import require_setup
 from rrnn_opt.solving.network import restable
@@ -12,6 +13,7 @@ from rrnn_opt.solving.protocol import Instance, Solution
 from rrnn_opt.solving.settle import SettleInfo, settle_at
 
 
+@checked()
 @dataclass
 class SettledNetwork:
     """The equilibrium of a network, instance by instance.

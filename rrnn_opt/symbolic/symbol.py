@@ -62,6 +62,7 @@ def dense(value: Value, shape: tuple[int, int], name: str) -> ca.SX:
         ShapeError: the shape differs.
     """
     if not isinstance(value, (ca.SX, ca.DM)):
+        require_numeric(value, name)
         value = np.asarray(value, dtype=np.float64)
     require_shape(value, shape, name)
     return ca.densify(ca.SX(value))

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError, UnsupportedOperationError
 from rrnn_opt.symbolic.operations import BY_CODE, OPERATIONS, Operation
 
@@ -77,6 +78,7 @@ class Tape:
     n_values: int
 
     @staticmethod
+    @checked()
     def of(fn: ca.Function) -> Tape:
         """Read a CasADi function once; an MX function is expanded first.
 

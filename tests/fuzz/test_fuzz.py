@@ -8,6 +8,7 @@ from benchmarks.fuzz.entries import ENTRIES
 from benchmarks.fuzz.judging import BAD, judged
 
 CHEAP = ("scene", "sphere file", "point cloud", "package folder", "document file")
+CHEAP += ("declarations in Python", "methods and compiled code")
 """Entries that take milliseconds an input."""
 
 

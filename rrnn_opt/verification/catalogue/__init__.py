@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.claim import Claim
 from rrnn_opt.decay import DecayClaim
 from rrnn_opt.formulation import Formulation
@@ -35,6 +36,7 @@ __all__ = [
 ]
 
 
+@checked()
 def claims(
     form: Formulation,
     network: Network,
