@@ -34,13 +34,16 @@ class RetimeSettings:
     """How finely a path is timed.
 
     Attributes:
-        rows: least number of rows.
+        rows: least number of steps between rows.
+        bent: steps of a span of the smoothed path that bends, for one of a
+            straight span.
         max_stretch: a grid that needs a larger factor of time than this is refined.
         refinements: how often the grid may be doubled for that.
         overshoot: positions may leave the joint box by this, rad or m.
     """
 
-    rows: int = 80
+    rows: int = 40
+    bent: int = 3
     max_stretch: float = 1.05
     refinements: int = 2
     overshoot: float = 1e-10
@@ -98,7 +101,7 @@ def _timed(
     acceleration = limits.acceleration * clock**2 / scale
     best: Trajectory | None = None
     for k in range(settings.refinements + 1):
-        grid = curve.grid(settings.rows * 2**k)
+        grid = curve.grid(settings.rows * 2**k, settings.bent)
         t, speed = parametrised(curve, grid, velocity, acceleration)
         q, qd = curve(grid) * scale, curve(grid, 1) * speed[:, None] * scale / clock
         q[0], q[-1], qd[0], qd[-1] = path.start, path.goal, 0.0, 0.0

@@ -10,6 +10,9 @@ from rrnn_opt.motion.path import Array, Path
 
 DEGREE = 3
 FEWEST_SPANS = 4
+STRAIGHT = 1e-3
+"""A span turns by less than this, rad of the curve's direction, where it is straight:
+the second derivative at a knot over the first, times the span."""
 
 
 class SmoothPath:
@@ -55,7 +58,22 @@ class SmoothPath:
         """The curve or its derivative of that order at ``s`` in [0, 1]."""
         return np.asarray(self._spline(s, nu=order), dtype=np.float64)
 
-    def grid(self, fewest: int) -> Array:
-        """Parameters that hold every knot, ``fewest`` at least, (n,)."""
-        each = max(2, int(np.ceil(fewest / self.spans)))
-        return np.linspace(0.0, 1.0, self.spans * each + 1)
+    def grid(self, fewest: int, bent: int = 1) -> Array:
+        """Parameters that hold every knot, ``fewest`` spans at least, (n,).
+
+        Along a straight line the rows' cubics follow any timing exactly, so rows
+        are placed where the curve bends.
+
+        Args:
+            fewest: least number of steps.
+            bent: steps of a span that bends for one of a straight span.
+        """
+        knots = np.linspace(0.0, 1.0, self.spans + 1)
+        turn, speed = np.abs(self(knots, 2)).max(axis=1), np.abs(self(knots, 1)).max()
+        straight = turn <= STRAIGHT * self.spans * speed
+        steps = np.where(straight[:-1] & straight[1:], 1, bent)
+        steps *= max(1, -(-fewest // int(steps.sum())))
+        first = np.repeat(np.cumsum(steps) - steps, steps)
+        inner = (np.arange(len(first)) - first) / np.repeat(steps, steps)
+        place = np.repeat(np.arange(self.spans), steps) + inner
+        return np.append(place / self.spans, 1.0)

@@ -64,10 +64,13 @@ class Trajectory:
                 raise NotFiniteError(name)
         if np.any(np.diff(times) <= 0):
             raise RetimeError("times must increase strictly", "bad times")
-        qdd = hermite.second_derivatives(hermite.pieces(times, rows, rates))
+        pieces = hermite.pieces(times, rows, rates)
+        qdd = hermite.second_derivatives(pieces)
         for values in (times, rows, rates, qdd):
             values.flags.writeable = False
-        return Trajectory(times, rows, rates, qdd)
+        made = Trajectory(times, rows, rates, qdd)
+        made.__dict__["pieces"] = pieces  # what the property would find again
+        return made
 
     @property
     def duration(self) -> float:

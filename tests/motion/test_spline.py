@@ -42,3 +42,22 @@ def test_the_grid_holds_every_knot():
     assert len(grid) >= 101
     for knot in np.linspace(0, 1, curve.spans + 1):
         assert np.abs(grid - knot).min() < 1e-12
+
+
+def test_a_bend_gets_more_steps_than_a_straight_stretch():
+    """Round the only corner of an L; the spans elsewhere take one step each."""
+    curve = smooth([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], 0.1)
+    grid = curve.grid(1, bent=3)
+    knots = np.linspace(0, 1, curve.spans + 1)
+    for knot in knots:
+        assert np.abs(grid - knot).min() < 1e-12
+    steps, _ = np.histogram(grid[:-1] + 1e-9, knots)
+    middle = (knots[:-1] + knots[1:]) / 2
+    ends = np.stack(
+        [curve(middle - 0.4 / curve.spans), curve(middle + 0.4 / curve.spans)]
+    )
+    bends = np.ptp(ends, axis=0).min(axis=1) > 1e-6  # moves along both axes
+    assert 2 <= bends.sum() <= 6
+    np.testing.assert_array_equal(steps[bends], 3)
+    assert steps[:5].tolist() == steps[-5:].tolist() == [1] * 5
+    assert len(curve.grid(200, bent=3)) >= 201
