@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import sys
+import threading
 from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
@@ -12,9 +14,13 @@ from typing import Any
 
 from rrnn_opt.arguments import checked
 from rrnn_opt.errors import ProblemError
+from rrnn_opt.motion import toppra_loading
 from rrnn_opt.planning.planner import plan
 from rrnn_opt.planning.problem.problem import Problem
 from rrnn_opt.planning.result import PlanResult
+from rrnn_opt.planning.search.cache import judge_of
+from rrnn_opt.planning.searches import runtime_for
+from rrnn_opt.planning.settings.planners import PLANNERS
 
 SHARE = 8
 """Plans handed out at a time, at most."""
@@ -32,10 +38,11 @@ def plan_many(
 ) -> Iterator[PlanResult]:
     """Plan each problem as ``plan`` does; results come in the problems' order.
 
-    Results do not depend on the number of jobs.  This process is one of them: it
-    plans while the others start, which are started afresh, find the compiled
-    planner in the cache and take work when they are ready.  A program that calls
-    this needs the usual ``if __name__ == "__main__":``.
+    Results do not depend on the number of jobs.  This process is one of them.  On
+    Linux, where it has no other thread, the others are copies of it, with libraries
+    and compiled planners loaded.  Elsewhere they are started afresh while this one
+    plans, find the compiled planner in the cache and take work when they are ready;
+    a program that calls this then needs the usual ``if __name__ == "__main__":``.
 
     Args:
         problems: any number of problems.
@@ -89,9 +96,34 @@ def _plans(share: list[Job]) -> list[PlanResult]:
     return [plan(job.problem, seed=job.seed, **job.options) for job in share]
 
 
+def _start_method() -> str:
+    """How the other processes start: as copies where that is safe.
+
+    A copy has none of the other threads, and what they hold locked stays locked.
+    """
+    alone = sys.platform == "linux" and threading.active_count() == 1
+    return "fork" if alone else "spawn"
+
+
+def _prepare(shares: list[list[Job]]) -> None:
+    """Load here what all copies of this process will need."""
+    toppra_loading.load()
+    for job in {
+        id(job.problem.robot): job for share in shares for job in share
+    }.values():
+        named = PLANNERS.get(job.options.get("planner", "random-rnn"))
+        settings = job.options.get("settings") or named
+        if settings is not None:  # else plan refuses the name
+            runtime_for(job.problem.robot, settings)
+        judge_of(job.problem.robot)
+
+
 def _among(shares: list[list[Job]], others: int) -> Iterator[list[PlanResult]]:
     """Results of the shares in order, made by other processes and by this one."""
-    with ProcessPoolExecutor(others, mp_context=get_context("spawn")) as pool:
+    method = _start_method()
+    if method == "fork":
+        _prepare(shares)
+    with ProcessPoolExecutor(others, mp_context=get_context(method)) as pool:
         desk = _Desk(pool, deque(enumerate(shares)))
         try:
             for _ in range(AHEAD * others):

@@ -1,5 +1,8 @@
 """Many plans: order, seeds and results do not depend on the workers."""
 
+import multiprocessing
+import sys
+import threading
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +12,28 @@ from rrnn_opt.errors import ProblemError
 from rrnn_opt.planning import Problem, plan, plan_many
 
 
-def test_workers_change_nothing(window_problem):
+def test_processes_are_copies_only_of_one_without_threads():
+    many = sys.modules["rrnn_opt.planning.many"]
+    rest, done = threading.active_count() - 1, threading.Event()
+    alone = sys.platform == "linux" and rest == 0
+    assert many._start_method() == ("fork" if alone else "spawn")
+    other = threading.Thread(target=done.wait)
+    other.start()
+    try:
+        assert many._start_method() == "spawn"
+    finally:
+        done.set()
+        other.join()
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_workers_change_nothing(window_problem, monkeypatch, method):
+    if method not in multiprocessing.get_all_start_methods():
+        pytest.skip(f"this system cannot {method}")
+    if method == "fork" and threading.active_count() > 1:
+        pytest.skip("a process with threads must not be copied")
+    many = sys.modules["rrnn_opt.planning.many"]
+    monkeypatch.setattr(many, "_start_method", lambda: method)
     problems = [Problem.from_dict(window_problem())] * 2
     alone = list(plan_many(problems, seeds=[5, 6], jobs=1))
     together = list(plan_many(problems, seeds=[5, 6], jobs=2))
@@ -35,8 +59,6 @@ def test_nothing_to_plan():
 
 
 def test_an_interrupted_plan_ends_all(window_problem, monkeypatch):
-    import sys
-
     many = sys.modules["rrnn_opt.planning.many"]
     problems = [Problem.from_dict(window_problem())] * 3
 
