@@ -48,7 +48,9 @@ class Cloud:
         least = np.linalg.norm(np.maximum(out, 0.0), axis=2)
         first = np.argmin(least, axis=1)
         bound = self._inside(query, first)[0]
-        row, block = np.nonzero(least <= bound[:, None])
+        near = least <= bound[:, None]
+        near[np.arange(len(query)), first] = True  # whatever rounding or NaN say
+        row, block = np.nonzero(near)
         far, spot = self._inside(query[row], block)
         order = np.lexsort((far, row))
         best = order[np.unique(row[order], return_index=True)[1]]
