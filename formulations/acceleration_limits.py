@@ -19,7 +19,7 @@ def acceleration_bounds(
     *,
     mu_p: float = 20.0,
     mu_v: float = 20.0,
-    margin: float = 0.02,
+    range_share: float = 0.02,
 ) -> tuple[ca.SX, ca.SX]:
     """Position, speed and acceleration limits as bounds on the acceleration.
 
@@ -36,28 +36,28 @@ def acceleration_bounds(
         limits: position limits may be infinite.
         mu_p: stiffness, 1/s2.
         mu_v: rate, 1/s.
-        margin: theta as a share of the joint's range, in [0, 1/2).
+        range_share: theta as a share of the joint's range, in [0, 1/2).
 
     Returns:
         u- and u+, (nv, 1) each, rad/s2 or m/s2.
 
     Raises:
         ShapeError: q or qd is no column of the limits' length.
-        RrnnError: a gain is not positive, or the margin not in [0, 1/2).
+        RrnnError: a gain is not positive, or range_share not in [0, 1/2).
 
     Source:
         The three-term bound of Guo and Zhang's acceleration-level schemes
         (IEEE TIE 61(12), 2014); mu_p, mu_v and theta are our choice.
     """
-    if not (mu_p > 0.0 and mu_v > 0.0 and 0.0 <= margin < 0.5):
+    if not (mu_p > 0.0 and mu_v > 0.0 and 0.0 <= range_share < 0.5):
         raise RrnnError(
             f"acceleration bounds: mu_p = {mu_p} and mu_v = {mu_v} must be "
-            f"positive, margin = {margin} in [0, 1/2)"
+            f"positive, range_share = {range_share} in [0, 1/2)"
         )
 
     def pull(i: int, limit: float, inwards: float) -> ca.SX:
         span = float(limits.upper[i] - limits.lower[i])
-        theta = margin * span if np.isfinite(span) else 0.0
+        theta = range_share * span if np.isfinite(span) else 0.0
         return mu_p * (limit + inwards * theta - q[i])
 
     return _three_terms(q, qd, limits, mu_v, pull)

@@ -48,7 +48,7 @@ def method2(
     kappa_o: float = 10.0,
     mu_p: float = 20.0,
     mu_v: float = 20.0,
-    margin: float = 0.02,
+    range_share: float = 0.02,
     frame: str | None = None,
 ) -> Formulation:
     """Smallest joint acceleration along an open-loop task acceleration.
@@ -72,7 +72,7 @@ def method2(
         kappa_o: rate of the obstacle rows, 1/s.
         mu_p: stiffness of the position bound, 1/s2.
         mu_v: rate of the speed bound, 1/s.
-        margin: theta, kept from each position limit, as a share of the joint's
+        range_share: theta, kept from each position limit, as a share of the joint's
             range.
         frame: the frame that follows; the tip by default.
 
@@ -96,7 +96,7 @@ def method2(
     stored = magnitudes(len(contacts))
     drift = kin.jacobian_dot(frame, qd.sx) @ qd.sx
     lower, upper = acceleration_bounds(
-        kin.q, qd.sx, kin.robot.limits, mu_p=mu_p, mu_v=mu_v, margin=margin
+        kin.q, qd.sx, kin.robot.limits, mu_p=mu_p, mu_v=mu_v, range_share=range_share
     )
     return Formulation(
         name="method2",

@@ -68,13 +68,13 @@ def row(
     return ca.horzcat(*entries)
 
 
-def offset(clearance: ca.SX, margin: ca.SX, bound: ca.SX) -> ca.SX:
+def offset(clearance: ca.SX, steering_margin: ca.SX, bound: ca.SX) -> ca.SX:
     """Right-hand side of a contact row: -max(d - m, 0) + B/2, m.
 
     Inside the steering margin the row only forbids coming nearer; it never
     asks for a retreat, so u = 0 stays feasible up to the term B/2.
     """
-    return -ca.fmax(clearance - margin, 0) + bound / 2
+    return -ca.fmax(clearance - steering_margin, 0) + bound / 2
 
 
 def step_box(
@@ -155,7 +155,7 @@ def slide(kin: Kinematics, contacts: Sequence[int] = ()) -> Formulation:
     Returns:
         Formulation in the increment ``u`` (nv,), with parameters ``q`` (nv,),
         ``attraction`` w (nv,), ``normals`` (3, k), ``clearances`` d (k,),
-        ``bounds`` B (k,), ``margin`` m (1,) and ``radius`` r (1,).
+        ``bounds`` B (k,), ``steering_margin`` m (1,) and ``radius`` r (1,).
 
     Raises:
         RrnnError: there is no such sphere.
@@ -173,7 +173,8 @@ def slide(kin: Kinematics, contacts: Sequence[int] = ()) -> Formulation:
     normals = Symbol.matrix("normals", (3, k), "1", "outward normals of the obstacles")
     gaps = Symbol.vector("clearances", k, "m", "gaps between spheres and obstacles")
     bounds = Symbol.vector("bounds", k, "m", "motion bounds B at u = w")
-    margin = Symbol.vector("margin", 1, "m", "steering margin")
+    kept = "clearance kept where there is room"
+    steering_margin = Symbol.vector("steering_margin", 1, "m", kept)
     radius = Symbol.vector("radius", 1, "rad", "largest increment of a joint")
     lower, upper = step_box(
         kin.q, ca.SX(robot.limits.lower), ca.SX(robot.limits.upper), radius.sx
@@ -181,9 +182,9 @@ def slide(kin: Kinematics, contacts: Sequence[int] = ()) -> Formulation:
     return Formulation(
         name="slide",
         decision=u,
-        parameters=(q, w, normals, gaps, bounds, margin, radius),
+        parameters=(q, w, normals, gaps, bounds, steering_margin, radius),
         cost=ca.dot(u.sx, u.sx) / 2 - ca.dot(w.sx, u.sx),
-        inequalities=_rows(kin, contacts, u, normals, gaps, bounds, margin),
+        inequalities=_rows(kin, contacts, u, normals, gaps, bounds, steering_margin),
         lower=lower,
         upper=upper,
         citation="Li, Li, Hannaford, IEEE TII 15(4) 2019, eqs. (3), (10)-(13)",
@@ -198,7 +199,7 @@ def _rows(
     normals: Symbol,
     gaps: Symbol,
     bounds: Symbol,
-    margin: Symbol,
+    steering_margin: Symbol,
 ) -> ca.SX:
     """Contact rows as ``offset - n'J u <= 0``, (k, 1)."""
     robot = kin.robot
@@ -209,5 +210,7 @@ def _rows(
         mask = ca.SX([float(j in moving) for j in range(robot.tree.nj)])
         centre, n = centres[:, sphere], normals.sx[:, i]
         gradient = row(robot.tree, axes, origins, mask, centre, n)
-        rows.append(offset(gaps.sx[i], margin.sx, bounds.sx[i]) - gradient @ u.sx)
+        rows.append(
+            offset(gaps.sx[i], steering_margin.sx, bounds.sx[i]) - gradient @ u.sx
+        )
     return ca.vertcat(*rows) if rows else ca.SX(0, 1)

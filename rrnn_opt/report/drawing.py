@@ -87,7 +87,7 @@ def _drawing(document: dict[str, Any]) -> Drawing:
     targets, goals = _goals(document)
     traces = tool_traces(document)
     extent = _extent(robot, frames, [tip, targets, *traces.values()])
-    space = workspace(extent, margin=0.12)
+    space = workspace(extent, border=0.12)
     shapes, missing = obstacles_of(document)
     tile = space.size / TILES
     solids, outside = _solids(shapes, space, tile)

@@ -57,16 +57,16 @@ class Workspace:
         return local.min(axis=0), local.max(axis=0)
 
 
-def workspace(points: Array, *, margin: float) -> Workspace:
+def workspace(points: Array, *, border: float) -> Workspace:
     """The box around some points.
 
     Args:
         points: (n, 3), m.
-        margin: added on each side as a share of the longest edge.
+        border: added on each side as a share of the longest edge.
     """
     low, high = points.min(axis=0), points.max(axis=0)
     edge = float(np.max(high - low)) or 1.0
-    pad = np.maximum(margin * edge, 0.5 * (0.6 * edge - (high - low)))
+    pad = np.maximum(border * edge, 0.5 * (0.6 * edge - (high - low)))
     padded = Workspace(low - pad, high + pad)
     if low[2] > -0.1 * edge:  # nothing goes below the floor: do not draw a cellar
         padded.low[2] = min(low[2], 0.0)

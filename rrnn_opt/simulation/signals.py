@@ -10,7 +10,8 @@ the reference and a small memory that is updated once a control period.
     normals, clearances   at the obstacle nearest to each contact's sphere
     magnitudes            stored as a contact enters the outer distance
     attraction, radius,   of the planner's step: towards the reference of the
-    margin, bounds        next period
+    steering_margin,      next period
+    bounds
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ from rrnn_opt.symbolic import Symbol
 RAW = ("q", "qd", "memory", "rd", "rd_dot", "rd_ddot", "settings")
 """Arguments of everything that is told; settings are dt and kappa."""
 
-MARGIN = 0.01
+STEERING_MARGIN = 0.01
 """Steering margin of the planner's step, m."""
 
 
@@ -151,7 +152,7 @@ class Signals:
             "error": self._pose_error,
             "attraction": self._attraction,
             "radius": self._radius,
-            "margin": lambda: ca.SX(MARGIN),
+            "steering_margin": lambda: ca.SX(STEERING_MARGIN),
             "bounds": self._bounds,
         }
         if name not in made:

@@ -35,7 +35,7 @@ def numbers(make, q, qd, **gains):
 def test_three_terms(place, pace):
     q, qd = LOW + (HIGH - LOW) * place, LIMITS.velocity * (2 * pace - 1)
     gains = {"mu_p": 12.0, "mu_v": 9.0}
-    low, high = numbers(acceleration_bounds, q, qd, margin=0.1, **gains)
+    low, high = numbers(acceleration_bounds, q, qd, range_share=0.1, **gains)
     theta = 0.1 * (LIMITS.upper - LIMITS.lower)
     w, a = LIMITS.velocity, LIMITS.acceleration
     with np.errstate(invalid="ignore"):
@@ -88,7 +88,7 @@ def test_the_worst_motion_within_braking_bounds_stays_inside(side):
     np.testing.assert_allclose(q[[0, 2]], end[[0, 2]], atol=1e-4)  # and it got there
 
 
-@pytest.mark.parametrize("gains", [{"mu_p": 0.0}, {"mu_v": -1.0}, {"margin": 0.5}])
+@pytest.mark.parametrize("gains", [{"mu_p": 0.0}, {"mu_v": -1.0}, {"range_share": 0.5}])
 def test_gains_of_the_three_terms(gains):
     with pytest.raises(RrnnError, match="acceleration bounds"):
         numbers(acceleration_bounds, np.zeros(3), np.zeros(3), **gains)

@@ -23,7 +23,7 @@ from tests.formulations.points import parameters
 KNOWN = {
     *("q", "qd", "rd", "rd_dot", "rd_ddot", "error", "e_int", "q_start", "lam"),
     *("normals", "clearances", "magnitudes"),
-    *("attraction", "bounds", "margin", "radius"),  # of the planner's step
+    *("attraction", "bounds", "steering_margin", "radius"),  # of the planner's step
 }
 
 

@@ -132,7 +132,7 @@ def test_method2_rows_are_the_sign_rows_and_their_derivative(every):
 
 
 def test_method2_keeps_all_three_limits_in_its_box(pa10):
-    form = method2(pa10, mu_p=15.0, mu_v=9.0, margin=0.0)
+    form = method2(pa10, mu_p=15.0, mu_v=9.0, range_share=0.0)
     given = parameters(form, pa10, 4)
     limits, q, qd = pa10.robot.limits, given["q"], given["qd"]
     high = [15 * (limits.upper - q), 9 * (limits.velocity - qd), limits.acceleration]

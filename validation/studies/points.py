@@ -226,7 +226,7 @@ def _value(symbol: Symbol, kind: str, rng: np.random.Generator) -> Array:
         "lam": 1e3 * scale * normal,
         "attraction": 0.1 * normal,
         "bounds": rng.uniform(0.0, 0.005, shape),
-        "margin": rng.uniform(0.0, 0.02, shape),
+        "steering_margin": rng.uniform(0.0, 0.02, shape),
         "radius": rng.uniform(0.05, 0.3, shape),
     }
     return np.asarray(values.get(symbol.name, 0.05 * normal))

@@ -124,15 +124,15 @@ class Search:
             raise RrnnError("planner: out of memory; lower the exploration budget")
         return STATUS[code]
 
-    def segment_free(self, start: Array, end: Array, clearance: float = 0.0) -> bool:
+    def segment_free(self, start: Array, end: Array, extra: float = 0.0) -> bool:
         """Proof by bisection that the straight segment is free.
 
-        ``clearance`` (m) is kept from obstacles beyond the promised margin.
+        ``extra`` (m) is kept from obstacles beyond the promised margin.
         """
         types = (ct.c_void_p, ct.c_void_p, ct.c_double)
         a, b = (np.ascontiguousarray(q, dtype=np.float64) for q in (start, end))
         pointers = (a.ctypes.data, b.ctypes.data)
-        return bool(self._call("segment_free", ct.c_int32, types, *pointers, clearance))
+        return bool(self._call("segment_free", ct.c_int32, types, *pointers, extra))
 
     def postures_free(self, q: Array) -> NDArray[np.bool_]:
         """Which postures (N, nv) keep every promised clearance, (N,)."""

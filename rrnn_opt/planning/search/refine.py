@@ -76,7 +76,7 @@ def refine(
     clear = settings.steering_margin
     straight = shortcut(
         best,
-        lambda a, b: first.segment_free(a, b, clearance=clear),
+        lambda a, b: first.segment_free(a, b, extra=clear),
         rng=np.random.default_rng([seed, 1]),
         attempts=0 if _nearly_straight(best) else STRAIGHT_SHORTCUTS,
     )

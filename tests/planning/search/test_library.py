@@ -53,7 +53,7 @@ def test_a_converged_step_is_the_optimum_of_the_slide_formulation(
                 normals=np.column_stack([p.normal for p in pairs]),
                 clearances=[p.gap for p in pairs],
                 bounds=[p.bound for p in pairs],
-                margin=[CONVERGED.steering_margin],
+                steering_margin=[CONVERGED.steering_margin],
                 radius=[CONVERGED.max_step],
             )
             answer = qpsolvers.solve_problem(qp, solver="daqp")

@@ -67,8 +67,8 @@ def test_a_segment_with_clearance_is_harder(pa10_runtime, window_problem, open_s
     with open_search(pa10_runtime, problem) as search:
         gap = search.closest(problem.start, radius=0.5).gap
         same = problem.start + 1e-6
-        assert search.segment_free(problem.start, same, clearance=0.9 * gap)
-        assert not search.segment_free(problem.start, same, clearance=1.1 * gap)
+        assert search.segment_free(problem.start, same, extra=0.9 * gap)
+        assert not search.segment_free(problem.start, same, extra=1.1 * gap)
 
 
 def test_improving_goes_on_until_its_seconds_are_spent(window_problem, monkeypatch):
