@@ -92,6 +92,7 @@ def test_no_bound_exceeds_the_true_one_by_more_than_the_slack(robot, seed, scale
             pair = rng.integers(0, target.count, 25)
             cheap = target.distance(now, box, pair) - target.travel(now, box, pair)
             sharp = target.sharp(now, box, pair)
+            shown = target.first(now).shown.reshape(target.count, -1)[pair, box]
             rooms = np.broadcast_to(target.room(pair), 25)
             for row in range(25):
                 at, room = found[box[row]], float(rooms[row])
@@ -100,6 +101,7 @@ def test_no_bound_exceeds_the_true_one_by_more_than_the_slack(robot, seed, scale
                 assert over < flint.arb(room)
                 if gap + exact.radii(target, int(pair[row])) > 0:  # centre outside
                     assert flint.arb(cheap[row]) - (gap - travel) < room
+                    assert flint.arb(shown[row]) - (gap - travel) < room
                 worst = max(worst, float(abs(over).upper()) / room)
     assert worst > 1e-5
 

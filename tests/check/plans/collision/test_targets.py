@@ -83,6 +83,39 @@ def test_no_bound_exceeds_the_least_distance_in_its_box(robot, orders):
     assert tight > 0
 
 
+def test_a_first_look_at_all_says_what_each_row_says(robot, tmp_path):
+    """Every pair in every box at once, against the same rows one by one."""
+    rng, mesh, cloud = np.random.default_rng(8), tmp_path / "m.obj", tmp_path / "c.npy"
+    np.save(cloud, rng.uniform(-1, 1, (200, 3)) + np.array([0.0, 0.0, 3.0]))
+    corners = rng.normal(size=(12, 3)).tolist()
+    mesh.write_text("".join("v {} {} {}\n".format(*corner) for corner in corners))
+    files = [
+        {"type": "mesh", "path": str(mesh), "position": [2.0, 2.0, 2.0]},
+        {"type": "points", "path": str(cloud), "radius": 0.02},
+    ]
+    again = {"type": "box", "size": [0.1, 0.2, 0.3], "position": [-1.0, 0.5, 0.5]}
+    model = read_model(robot)
+    motion = motion_of(model, rng, (1, 2, 3))
+    problem = {"obstacles": [*OBSTACLES, *files, again]}
+    scene = inputs.read_scene(Parts.of(model), problem, motion)
+    boxes = Boxes.whole(0, 1).halves(np.zeros(1, dtype=np.int64))
+    now = look(scene, motion, boxes.halves(np.arange(2)))
+    kinds = [t.solids.kind for t in scene.targets[:-1]]
+    assert kinds == ["halfspace", "box", "sphere", "mesh", "points"]
+    assert scene.targets[1].members == (1, 5)
+    for target in levels(scene):
+        found = target.first(now)
+        solids, own, count = found.d.shape
+        assert (solids * own, count) == (target.count, 4)
+        box, pair = everything(target, 4)
+        d = target.distance(now, box, pair)
+        floor = target.floor(now, box, pair, d) - target.travel(now, box, pair)
+        for all_of_it, rows in ((found.d, d), (found.shown, floor)):
+            flat = all_of_it.reshape(target.count, 4)
+            np.testing.assert_allclose(flat[pair, box], rows, rtol=0, atol=1e-13)
+        np.testing.assert_array_equal(target.solid(pair), pair // own)
+
+
 def test_a_slide_is_followed_to_its_largest_extension(tree):
     """Extents and reaches hold between rows, where the slide bulges."""
     model = read_model(tree)
