@@ -123,14 +123,11 @@ class Dynamics(ABC):
         told = [getattr(self, part) for part in parts] + [*self.multipliers.values()]
         gone = [s.sx for s in self.rates.values()]
         still = ca.substitute(told, gone, [ca.SX.zeros(*s.shape) for s in gone])
-        changes: dict[str, Any] = dict(zip(parts, still, strict=False))
-        changes["multipliers"] = dict(
-            zip(self.multipliers, still[len(parts) :], strict=True)
-        )
-        changes["parameters"] = tuple(
-            p for p in self.parameters if p.name not in moving
-        )
-        return replace(self, rates={}, **changes)  # type: ignore[type-var]
+        laws: dict[str, Any] = dict(zip(parts, still, strict=False))
+        duals = still[len(parts) :]
+        laws["multipliers"] = dict(zip(self.multipliers, duals, strict=True))
+        kept = tuple(p for p in self.parameters if p.name not in moving)
+        return replace(self, rates={}, parameters=kept, **laws)  # type: ignore[type-var]
 
     def _common(self) -> dict[str, ca.Function]:
         made = {

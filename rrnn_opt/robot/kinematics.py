@@ -1,8 +1,4 @@
-"""Forward kinematics and geometric Jacobian of a robot, written in CasADi SX.
-
-CasADi drops multiplications by exact 0 and 1 as the graph is built, so exact
-placements give a lean graph.
-"""
+"""Forward kinematics and geometric Jacobian of a robot, written in CasADi SX."""
 
 from __future__ import annotations
 
@@ -13,8 +9,9 @@ import casadi as ca
 from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError, ShapeError
 from rrnn_opt.robot.robot import Robot
-from rrnn_opt.robot.rotation import homogeneous, rotation_about
-from rrnn_opt.robot.tree import BASE, PRISMATIC, Array, Frame
+from rrnn_opt.robot.rotation import homogeneous
+from rrnn_opt.robot.tree import BASE, PRISMATIC, Frame
+from rrnn_opt.robot.tree_frames import Pose, carried, tree_frames
 
 POSITION, POSE = "position", "pose"
 
@@ -41,22 +38,12 @@ class Kinematics:
         """
         self.robot = robot
         self.q: ca.SX = ca.SX.sym("q", robot.nv)
-        self._poses: dict[str, tuple[ca.SX, ca.SX]] = {}
+        self._poses: dict[str, Pose] = {}
 
     @cached_property
-    def _frames(self) -> list[tuple[ca.SX, ca.SX]]:
+    def _frames(self) -> list[Pose]:
         """(rotation (3, 3), origin (3, 1)) of every joint frame, in the base."""
-        tree = self.robot.tree
-        frames: list[tuple[ca.SX, ca.SX]] = []
-        for k in range(tree.nj):
-            value = tree.multiplier[k] * self.q[int(tree.source[k])] + tree.offset[k]
-            R, p = self._carried(frames, int(tree.parents[k]), tree.placements[k])
-            if tree.types[k] == PRISMATIC:
-                p = p + (R @ ca.SX(tree.axes[k])) * value
-            else:
-                R = R @ rotation_about(tree.axes[k], value)
-            frames.append((R, p))
-        return frames
+        return tree_frames(self.robot.tree, self.q)
 
     @cached_property
     def _axes(self) -> list[ca.SX]:
@@ -64,24 +51,13 @@ class Kinematics:
         pairs = zip(self._frames, self.robot.tree.axes, strict=True)
         return [R @ ca.SX(axis) for (R, _), axis in pairs]
 
-    def _pose(self, frame: str | None) -> tuple[ca.SX, ca.SX]:
+    def _pose(self, frame: str | None) -> Pose:
         """Rotation and origin of a frame; built once, so that they are shared."""
         where = self.robot.frame(frame)
         if where.name not in self._poses:
-            pose = self._carried(self._frames, where.joint, where.placement)
+            pose = carried(self._frames, where.joint, where.placement)
             self._poses[where.name] = pose
         return self._poses[where.name]
-
-    @staticmethod
-    def _carried(
-        frames: list[tuple[ca.SX, ca.SX]], joint: int, placement: Array
-    ) -> tuple[ca.SX, ca.SX]:
-        """Rotation and origin of a pose fixed to a joint frame."""
-        R, p = ca.SX(placement[:3, :3]), ca.SX(placement[:3, 3])
-        if joint == BASE:
-            return R, p
-        R_joint, p_joint = frames[joint]
-        return R_joint @ R, p_joint + R_joint @ p
 
     def joint_frames(self) -> list[ca.SX]:
         """Pose ``T_k`` of every joint's frame after its motion, nj of (4, 4), m."""
