@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 
 
+def fill_streams() -> None:
+    """Let what is said to a closed stream go nowhere.
+
+    Otherwise the next file that is opened gets its number, and what a C library
+    prints would end up in that file.
+    """
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:
+            handle = os.open(os.devnull, os.O_RDWR)  # the lowest number: this one
+            stream = os.fdopen(handle, "w" if number else "r", encoding="utf-8")
+            setattr(sys, name, stream)
+
+
 def main() -> int:
     """Load and run the command line; the exit status."""
+    fill_streams()
     loaded = False
     try:
         from rrnn_opt.cli.main import main as run

@@ -38,12 +38,16 @@ PREFIX = "rrnn_opt-"
 
 
 def cache_folder() -> pathlib.Path:
-    """``RRNN_CACHE_DIR``, else ``rrnn_opt`` in the user's cache folder."""
+    """``RRNN_CACHE_DIR``, else ``rrnn_opt`` in the user's cache folder.
+
+    A user without a home has none: then it is a path where nothing can be kept.
+    """
     chosen = os.environ.get("RRNN_CACHE_DIR")
-    if chosen:
-        return pathlib.Path(chosen).expanduser()
     home = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
-    return pathlib.Path(home).expanduser() / "rrnn_opt"
+    try:
+        return pathlib.Path(chosen or pathlib.Path(home, "rrnn_opt")).expanduser()
+    except RuntimeError:
+        return pathlib.Path(os.devnull, "rrnn_opt")
 
 
 @functools.lru_cache(maxsize=1)

@@ -122,7 +122,7 @@ def _planned(
                     on_progress("deliver", len(search.path()))
                 return _delivered(run, search, runtime, goals)
         except KeyboardInterrupt:
-            return run.result("interrupted", "interrupted; what was found is kept")
+            return run.result("interrupted", "what was found is kept")
         return _without_path(run, status, goals)
 
 

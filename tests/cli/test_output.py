@@ -1,6 +1,8 @@
 """What is said reaches every terminal, whatever is in a name."""
 
 import io
+import json
+import subprocess
 import sys
 
 import pytest
@@ -28,3 +30,15 @@ def test_a_reason_is_one_line_of_bounded_length():
     error = DocumentError("plan.json", "a\n  reason\t" + "x" * 10_000)
     assert str(error).startswith("plan.json: a reason x")
     assert len(str(error)) < 700
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX shell")
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&-", ">&- 2>&- <&-"])
+def test_closed_streams_are_no_fault(closed):
+    line = f'"{sys.executable}" -m rrnn_opt.cli.start robots --json {closed}'
+    done = subprocess.run(
+        ["sh", "-c", line], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert "Traceback" not in done.stderr
+    assert (">&-" in closed.split()) or json.loads(done.stdout)

@@ -216,3 +216,19 @@ def test_the_digest_behind_the_object_does_not_disturb_the_loader(cold_cache):
     path = build(SOURCE, name="answer").path
     assert path.read_bytes().rpartition(b"\nrrnn_opt sha256 ")[1]
     assert ctypes.CDLL(str(path)).the_answer() == 42
+
+
+@pytest.mark.parametrize("chosen", ["", "~no_such_user_here/x"])
+def test_a_user_without_a_home_compiles_all_the_same(monkeypatch, tmp_path, chosen):
+    def homeless(self):
+        raise RuntimeError("Could not determine home directory.")
+
+    cache.private_folder.cache_clear()
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    monkeypatch.setenv("RRNN_CACHE_DIR", chosen)
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.setattr("pathlib.Path.expanduser", homeless)
+    source = '__attribute__((visibility("default"))) int two(void) { return 2; }'
+    assert load(build(source, name="two")).two() == 2
+    assert not list(tmp_path.glob("~*"))
+    cache.private_folder.cache_clear()
