@@ -1,7 +1,9 @@
 """Every example runs, and so does the README's block of Python."""
 
+import json
 import re
 import runpy
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -58,6 +60,38 @@ def test_readme_python(tmp_path):
 def test_command_of_an_example_file(arguments, capfd):
     files = {p.name: str(p) for p in (ROOT / "examples").iterdir()}
     assert main([files.get(a, a) for a in arguments]) == 0, capfd.readouterr().err
+
+
+def test_the_loop_around_a_generated_controller(tmp_path):
+    """As its first lines say: generated, compiled with every warning, and run."""
+    compiler = shutil.which("cc") or pytest.skip("cc is not installed")
+    words = ["generate", "closed_loop", "--robot", "panda", "--prefix", "arm"]
+    assert main([*words, "--out", "build"]) == 0
+    strict = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-Wconversion"]
+    sources = ["build/arm/src/arm.c", "build/arm/src/arm_selftest.c"]
+    command = [compiler, *strict, "-O2", "-ffp-contract=off", "-Ibuild/arm/include"]
+    command += [
+        *sources,
+        str(ROOT / "examples" / "embed_main.c"),
+        "-lm",
+        "-o",
+        "circle",
+    ]
+    subprocess.run(command, cwd=tmp_path, check=True, timeout=120)
+    done = subprocess.run(
+        [tmp_path / "circle"], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert (done.returncode, done.stdout) == (0, "back within 0.0 mm\n")
+
+
+@pytest.mark.slow
+def test_one_claim_for_each_kind_of_verdict(capfd):
+    path = str(ROOT / "examples" / "verify_my_network.py")
+    assert main(["verify", path, "--json"]) == 1
+    rows = json.loads(capfd.readouterr().out)["claims"]
+    assert [row["verdict"] for row in rows] == ["HOLDS_UNDER", "REFUTED", "UNKNOWN"]
+    assert rows[0]["mutation"] == "rate 3: REFUTED"
+    assert "no bounds" in rows[2]["reason"]
 
 
 def test_the_proof_of_the_tutorial(capfd):

@@ -47,6 +47,10 @@ def judged(document: dict[str, Any], *, exact: bool = False) -> dict[str, Any]:
 
     if document.get("kind") == KIND:
         return {"kind": "claim", **check_certificate(document).to_dict()}
+    if isinstance(document.get("claims"), list):
+        raise DocumentError(
+            "claims", "are rows of a report: check one of the certificates beside it"
+        )
     return check_plan(document, exact=exact).to_dict()
 
 

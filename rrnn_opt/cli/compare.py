@@ -15,6 +15,12 @@ from rrnn_opt.cli.output import Output, UsageError
 HELP = "compare QP solvers and networks on control streams and drawn problems"
 PATIENCE_S = 180.0
 """Wall time that one solver may take on one set, s."""
+MANY = 50
+"""Cases from which on a shorter way is named."""
+NOTHING = (
+    "name a study: rrnn compare quick --solvers osqp,daqp,rrnn takes about a minute;"
+    " rrnn compare --list shows all"
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -22,10 +28,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "study",
         nargs="?",
-        help="a name of --list, a Python file with cases(), or a .parquet test set",
+        help="a name of --list, a Python file with cases(), a folder of .npz files"
+        " (qpsolvers.Problem.save), or a .parquet test set",
     )
     parser.add_argument("--list", action="store_true", help="studies and solvers")
-    parser.add_argument("--solvers", metavar="A,B,..", help="only these")
+    parser.add_argument("--solvers", metavar="A,B,..", help="only these (default: all)")
     parser.add_argument("--passes", type=count, default=5, help="default %(default)s")
     parser.add_argument("--export", metavar="DIR", help="write the sets as Parquet")
     add_study_arguments(parser)
@@ -53,11 +60,13 @@ def run(args: argparse.Namespace, out: Output) -> int:
     if args.list:
         return _list(out)
     if args.study is None:
-        raise UsageError("name a study, or see rrnn compare --list")
+        raise UsageError(NOTHING)
     study, notes = chosen_study(args)
     if args.export is not None:
         return _export(study, folder(args.export), out)
     target = folder(args.out.replace("{}", "compare"))
+    for line in intended(args, study, target):
+        out.note(line)
     rows = measured(args, study, target)
     paths = _report(args, study, rows, target, notes)
     return _said(out, study, rows, paths)
@@ -73,13 +82,30 @@ def chosen_study(args: argparse.Namespace) -> tuple[Any, tuple[str, ...]]:
 
     words = [word for word in (args.solvers or "").split(",") if word]
     solvers = comparison.chosen(words)
-    if args.study.endswith((".py", ".parquet")):
+    if comparison.is_own(args.study):
         own = comparison.own_sets(args.study)
         return comparison.Comparison(tuple(own), solvers, own, args.passes), ()
     names, notes = comparison.installed(comparison.set_names(args.study))
     if not names:
         raise UsageError("; ".join(notes))
     return comparison.Comparison(names, solvers, passes=args.passes), notes
+
+
+def intended(args: argparse.Namespace, study: Any, target: Path) -> list[str]:
+    """What is about to be done, how long it may take, and how to stop it."""
+    cases, most = sum(1 for _ in study), f" and is ended after {PATIENCE_S:g} s"
+    lines = [
+        f"{cases} cases: {len(study.solvers)} solvers in their modes on"
+        f" {len(study.sets)} sets, {args.passes} passes each; a case takes seconds"
+        f"{most if args.dask is None else ''}. Ctrl-C keeps what is finished in"
+        f" {target}, --resume goes on there"
+    ]
+    if args.solvers is None and cases > MANY:
+        lines.append(
+            "this asks every solver that is installed; --solvers osqp,daqp,rrnn is the"
+            " quick way"
+        )
+    return lines
 
 
 def measured(args: argparse.Namespace, study: Any, target: Path) -> list[Any]:

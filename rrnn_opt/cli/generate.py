@@ -91,6 +91,9 @@ def run(args: argparse.Namespace, out: Output) -> int:
     written = package.write(target)
     out.document(package.manifest)
     out.say(f"wrote {written}")
+    for line in _costs(package.manifest["footprint"]):
+        out.say(line)
+    out.say(f"next: {written / 'README.md'} (arguments, build, test)")
     return 0
 
 
@@ -127,6 +130,20 @@ def _package(args: argparse.Namespace) -> Any:
         onboard=_onboard(args, kin),
         layout=args.layout,
     )
+
+
+def _costs(found: dict[str, Any]) -> list[str]:
+    """What the controller takes on its board; nothing where it was not measured."""
+    if "board" not in found:
+        return []
+    low, high = found["instructions"]["min"], found["instructions"]["max"]
+    count = f"{low}" if low == high else f"{low} to {high}"
+    return [
+        f"on {found['board']}: {found['flash_bytes']} bytes of flash,"
+        f" {found['ram_bytes']} of RAM, {found['stack_bytes']} of stack,"
+        f" {count} instructions a step"
+        f" ({found['compiler']}, counted in QEMU)"
+    ]
 
 
 def _rule(args: argparse.Namespace) -> Any:

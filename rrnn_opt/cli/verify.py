@@ -18,9 +18,12 @@ from rrnn_opt.files import from_python
 HELP = "settle claims: PROVED, REFUTED with a witness, HOLDS_UNDER, or UNKNOWN"
 OPEN = ("REFUTED", "UNKNOWN")
 TITLE = "Statements of the paper, and what is true"
-WORDS = (
+READ = (
     "Statements are in our words; how each was read stands in its file in "
-    "validation/claims. PROVED adds no hypothesis to the source's own, HOLDS_UNDER "
+    "validation/claims. "
+)
+WORDS = (
+    "PROVED adds no hypothesis to the source's own, HOLDS_UNDER "
     "names those that it needs, REFUTED has a point that was replayed exactly; "
     "assumptions that begin with pen are steps that no checker follows. Any verdict "
     "is judged again by rrnn check DIR/ID.json."
@@ -169,9 +172,13 @@ def _report(
     words = [*args.claim, *(["--all"] if args.all else [])]
     if args.formulation:
         words += ["--formulation", args.formulation, "--network", args.network]
-    command = " ".join(["rrnn verify", *words, "--robot", args.robot, "--out", "DIR"])
-    title = TITLE if args.all else "Claims"
-    about = {"title": title, "command": command, "words": WORDS}
+    own = all(name.endswith(".py") for name in words)
+    words += [] if own else ["--robot", args.robot]
+    about = {
+        "title": TITLE if args.all else "Claims",
+        "command": " ".join(["rrnn verify", *words, "--out", "DIR"]),
+        "words": WORDS if own else READ + WORDS,
+    }
     write_text(target / "claims.json", json.dumps(document, indent=1) + "\n")
     write_text(target / "claims.md", claims_markdown(document, **about))
     write_text(target / "claims.html", claims_html(document, **about))

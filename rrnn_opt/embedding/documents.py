@@ -8,6 +8,7 @@ from rrnn_opt.embedding.programme import Programme
 from rrnn_opt.embedding.render import EXTENT, plain, template
 from rrnn_opt.embedding.vectors import HOST_CASES
 from rrnn_opt.emit.c99 import library_calls
+from rrnn_opt.robot import Robot
 
 _EXACT = """
 ## The exact solver
@@ -26,6 +27,7 @@ def readme(
     close: float,
     exact: Programme | None,
     longest: float | None,
+    robot: Robot | None,
 ) -> str:
     """README.md.
 
@@ -36,6 +38,7 @@ def readme(
         close: tolerance of the package's own test.
         exact: programme of the fallback; None without.
         longest: Euler step, s, up to which a bound is known; None without.
+        robot: whose joints and tip the arguments speak of, if it is known.
     """
     form = kernel.dynamics.formulation
     fields = [*(("in", f) for f in kernel.inputs), ("out", kernel.output)]
@@ -52,6 +55,7 @@ def readme(
                 f" {plain(f.unit)} | {plain(f.meaning)} |"
                 for struct, f in fields
             ),
+            "robot_text": "" if robot is None else _robot(robot, options.prefix),
             "library": ", ".join(_library(kernel, options)) or "none",
             "angle": f"{EXTENT[options.real]:g}",
             "contract": "fast" if options.fused else "off",
@@ -62,6 +66,15 @@ def readme(
             "exact_section": "" if exact is None else _exact(exact),
             "certified": _certified(options, close, longest),
         },
+    )
+
+
+def _robot(robot: Robot, prefix: str) -> str:
+    names = ", ".join(f"`{plain(name)}`" for name in robot.joint_names)
+    return (
+        f" Joints stand in this order: {names}. The frame is"
+        f" `{plain(robot.tip)}`, in coordinates of the robot's base;"
+        f" `{prefix}_kinematics` gives its pose and Jacobian."
     )
 
 

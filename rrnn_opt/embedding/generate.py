@@ -13,7 +13,7 @@ from rrnn_opt.embedding.build_files import build_files
 from rrnn_opt.embedding.fmu import fmu
 from rrnn_opt.embedding.kernel import Kernel, kernel, pose
 from rrnn_opt.embedding.layouts import arduino
-from rrnn_opt.embedding.manifest import claim_files, facts
+from rrnn_opt.embedding.manifest import claim_files, facts, robot_facts
 from rrnn_opt.embedding.onboard import Onboard, onboard_files
 from rrnn_opt.embedding.options import Options
 from rrnn_opt.embedding.package import Package, with_manifest
@@ -27,7 +27,7 @@ from rrnn_opt.embedding.vectors import (
     tolerance,
 )
 from rrnn_opt.networks import Network
-from rrnn_opt.robot import Kinematics
+from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.symbolic import Tape
 
 Layout = Literal["arduino", "fmu"]
@@ -40,6 +40,7 @@ class _Parts:
     core: Kernel
     options: Options
     exact: Programme | None
+    robot: Robot | None
     pose: Tape | None
     longest: float | None
     vectors: list[Vector]
@@ -102,7 +103,11 @@ def generate(
         files |= fmu(parts.core, files, parts.options, parts.words)
     claims, certificates = claim_files(safe)
     said = facts(parts.core, parts.options, network, longest)
-    said |= {"claims": claims, "rounding": _rounding(parts)}
+    said |= {
+        "robot": robot_facts(parts.robot),
+        "claims": claims,
+        "rounding": _rounding(parts),
+    }
     every = files | _documents(parts) | certificates
     return with_manifest(parts.options.prefix, every, said)
 
@@ -121,6 +126,7 @@ def _parts(
         core=core,
         options=options,
         exact=exact,
+        robot=None if kinematics is None else kinematics.robot,
         pose=None if kinematics is None else pose(kinematics),
         longest=longest,
         vectors=vectors,
@@ -134,6 +140,7 @@ def _documents(parts: _Parts) -> dict[str, str]:
         "README.md": documents.readme(
             *(parts.core, parts.words, parts.options),
             *(parts.close, parts.exact, parts.longest),
+            parts.robot,
         ),
         "MISRA.md": documents.misra(parts.words),
         "LICENSE": render.verbatim("APACHE-2.0.md"),

@@ -12,6 +12,7 @@ from rrnn_opt.embedding.kernel import Field, Kernel
 from rrnn_opt.embedding.options import Options
 from rrnn_opt.embedding.step_claim import SafeStep
 from rrnn_opt.networks import Network
+from rrnn_opt.robot import Robot
 
 _COSTS = ("flash_bytes", "ram_bytes", "stack_bytes", "instructions")
 _UNMEASURED = (
@@ -60,6 +61,18 @@ def facts(
         "output": _row(core.output),
         "versions": {name: metadata.version(name) for name in ("rrnn_opt", "casadi")},
     }
+
+
+def robot_facts(robot: Robot | None) -> dict[str, Any] | None:
+    """Whose joints the arguments speak of, in which order, and of which frame.
+
+    Args:
+        robot: the arm, if it is known.
+    """
+    if robot is None:
+        return None
+    joints = list(robot.joint_names)
+    return {"name": robot.name, "joints": joints, "frame": robot.tip}
 
 
 def _discretisation(

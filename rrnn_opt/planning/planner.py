@@ -176,8 +176,8 @@ def _why(status: str, run: Run, goals: OpenGoals) -> str:
             f"inverse kinematics found no free goal posture in {tries} tries for"
             f" {len(goals.tips)} goal(s); this is no proof that there is none"
         )
-    what = {"budget_exhausted": "explorations", "time_limit": "time"}[status]
-    return f"no path found before the {what} were spent; this proves nothing"
+    spent = {"budget_exhausted": "explorations were", "time_limit": "time was"}[status]
+    return f"no path found before the {spent} spent; this proves nothing"
 
 
 def _delivered(

@@ -82,14 +82,10 @@ def claims_markdown(
     lines = [f"# {title}", "", *told, f"{_counted(rows)} Made by `{command}`.", ""]
     lines += [_cells(head), _cells(["---"] * len(head))]
     lines += [_cells(_described(row)) for row in rows]
-    lines += [
-        "",
-        "## Mutations",
-        "",
-        "A variant of known truth for each statement.",
-        "",
-    ]
-    lines += [f"- {r['id']}: {_plain(r['mutation'])}" for r in rows if r["mutation"]]
+    variants = [f"- {r['id']}: {_plain(r['mutation'])}" for r in rows if r["mutation"]]
+    if variants:
+        lines += ["", "## Mutations", ""]
+        lines += ["A variant of known truth for each statement.", "", *variants]
     if document["evidence"]:
         lines += ["", "## Evidence", "", "Samples and tests; none is a verdict.", ""]
         lines += [f"- {_seen(item)}" for item in document["evidence"]]
@@ -160,10 +156,10 @@ def _html_row(row: Row) -> str:
     how = html.escape(
         f"{row['engine'] or '-'}, {row['trust'] or '-'}, {row['time_s']:.1f} s"
     )
-    mutation = html.escape(row["mutation"])
+    variant = html.escape(f"variant: {row['mutation']}" if row["mutation"] else "")
     return (
         f"<tr><td>{name}<small>{html.escape(row['source'])}</small></td>"
-        f"<td>{stated}<small>variant: {mutation}</small></td>"
+        f"<td>{stated}<small>{variant}</small></td>"
         f'<td><span class="word {html.escape(row["verdict"])}">{verdict}</span>'
         f"<small>{rests}</small><small>{how}</small></td><td>{truth}</td></tr>"
     )

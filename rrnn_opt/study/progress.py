@@ -1,19 +1,22 @@
-"""How far a study is, on a terminal."""
+"""How far a study is, on a terminal or in a log."""
 
 from __future__ import annotations
 
+import contextlib
 import time
 from typing import TextIO
 
 EVERY_S = 0.2
-"""Seconds between two lines."""
+"""Seconds between two lines on a terminal, s."""
+LOGGED_S = 60.0
+"""Seconds between two lines in a file or a pipe, s."""
 
 
 class Progress:
-    """One line that is written over; nothing where nobody watches.
+    """One line that is written over; where nobody watches, a line a minute.
 
     Args:
-        stream: standard error; silent unless it is a terminal.
+        stream: standard error.
         label: before the numbers.
     """
 
@@ -33,19 +36,21 @@ class Progress:
         if self._first is None:
             self._first = finished
         now = time.monotonic()
-        if not self._seen or (now - self._last < EVERY_S and finished < total):
+        soon = now - self._last < (EVERY_S if self._seen else LOGGED_S)
+        if soon and not (self._seen and finished == total):
             return
         self._last = now
         rate = (finished - self._first) / max(now - self._began, 1e-9)
         self._write(f"{self._label}{finished}/{total}{_rest(rate, total - finished)}")
 
     def close(self) -> None:
-        """Take the line away."""
-        self._write("")
+        """Take the line away; lines of a log stay."""
+        if self._seen:
+            self._write("")
 
     def _write(self, text: str) -> None:
-        if self._seen:
-            self._stream.write(f"\r\x1b[K{text}")
+        with contextlib.suppress(OSError):  # nobody reads: the study goes on
+            self._stream.write(f"\r\x1b[K{text}" if self._seen else f"{text}\n")
             self._stream.flush()
 
 

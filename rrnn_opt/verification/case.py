@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.claim import Claim
 from rrnn_opt.decay import DecayClaim
 from rrnn_opt.verification.certify import certify
@@ -20,6 +21,7 @@ Place = Callable[[str, Mapping[str, Any]], str]
 """Writes a certificate under a name; returns its path."""
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Mutation:
     """A broken or mended variant of a statement, whose truth is known.
@@ -44,6 +46,7 @@ class Mutation:
         return verdict.status not in ESTABLISHED
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class Repair:
     """What is true in place of a statement.
@@ -62,6 +65,7 @@ class Repair:
         return claim_of(self.proof)
 
 
+@checked()
 @dataclass(frozen=True, eq=False)
 class ClaimCase:
     """A statement as it stands, and a variant that tests the machine.

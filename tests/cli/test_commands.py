@@ -112,6 +112,12 @@ def test_generate_prints_the_manifest_of_what_it_wrote(capfd, tmp_path):
     folder = tmp_path / "g" / "mine"
     assert json.loads((folder / "MANIFEST.json").read_text()) == manifest
     assert (folder / "src" / "mine.c").is_file()
+    robot = manifest["robot"]
+    assert robot["name"] == "planar3"
+    assert robot["frame"] == "tip"
+    told = (folder / "README.md").read_text()
+    joints = ", ".join(f"`{name}`" for name in robot["joints"])
+    assert f"Joints stand in this order: {joints}. The frame is `tip`" in told
 
 
 def test_verify_settles_and_its_certificate_can_be_checked(capfd, tmp_path):

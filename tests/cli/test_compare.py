@@ -18,7 +18,10 @@ def test_a_comparison_from_the_command_line(tmp_path, capfd):
     words = ["compare", str(study), "--solvers", "daqp,osqp", "--passes", "2"]
     words += ["--out", str(tmp_path / "out"), "--json"]
     assert main(words) == 0
-    first = json.loads(capfd.readouterr().out)
+    shown = capfd.readouterr()
+    assert "6 cases: 2 solvers in their modes on 1 sets, 2 passes each" in shown.err
+    assert "--resume goes on there" in shown.err
+    first = json.loads(shown.out)
     modes = {(row["solver"], row["mode"]) for row in first["rows"]}
     assert modes == {
         (s, m) for s in ("daqp", "osqp") for m in ("cold", "warm", "stream")
@@ -42,7 +45,7 @@ def test_what_there_is_to_compare(capfd):
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ([], "name a study"),
+        ([], "name a study: rrnn compare quick --solvers"),
         (["circles"], "no study 'circles'"),
         (["circle", "--solvers", "qp"], "no solver 'qp'"),
         (["nothing.py"], "cannot be read"),
@@ -57,3 +60,17 @@ def test_wrong_words_are_said_in_one_sentence(
     monkeypatch.chdir(tmp_path)
     assert main(["compare", *words]) == 2
     assert sentence in capfd.readouterr().err
+
+
+def test_whoever_asks_everybody_is_told_a_shorter_way():
+    from types import SimpleNamespace
+
+    from rrnn_opt.cli.compare import intended
+
+    def told(cases, solvers):
+        args = SimpleNamespace(passes=5, solvers=solvers, dask=None)
+        study = type("S", (list,), {"solvers": [1], "sets": [1]})(range(cases))
+        return "\n".join(intended(args, study, "runs/x"))
+
+    assert "--solvers osqp,daqp,rrnn is the quick way" in told(100, None)
+    assert "quick way" not in told(10, None) + told(100, "daqp")

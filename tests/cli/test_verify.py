@@ -79,3 +79,24 @@ def test_a_scheme_on_a_robot(capfd):
     assert rows["equilibrium_is_optimum"] == "PROVED"
     assert set(rows.values()) <= {"PROVED", "HOLDS_UNDER"}
     assert len(rows) >= 7
+
+
+def test_the_page_of_ones_own_claims_speaks_of_them_alone(capfd, tmp_path):
+    (tmp_path / "own.py").write_text(OWN.format(tail=""))
+    assert main(["verify", "own.py", "--out", "v"]) == 0
+    text = (tmp_path / "v/claims.md").read_text()
+    assert "`rrnn verify own.py --out DIR`" in text
+    assert "validation/claims" not in text
+    assert "Mutations" not in text
+    assert "variant" not in (tmp_path / "v/claims.html").read_text()
+    capfd.readouterr()
+    assert main(["view", "v", "--json"]) == 0
+    assert document(capfd) == {"page": "v/claims.html"}
+    assert main(["view", "v/claims.json"]) == 0
+    assert main(["check", "v/claims.json"]) == 2
+    assert "check one of the certificates" in capfd.readouterr().err
+
+
+def test_a_folder_without_a_result_has_no_page(capfd, tmp_path):
+    assert main(["view", "."]) == 2
+    assert "neither plan.json nor a report" in capfd.readouterr().err

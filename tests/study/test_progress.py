@@ -29,13 +29,38 @@ def test_rate_and_time_left(clock):
     assert screen.getvalue().endswith("\r\x1b[K")
 
 
-def test_nothing_where_nobody_watches(clock):
-    file = io.StringIO()
-    show = Progress(file)
+def test_a_line_a_minute_where_nobody_watches(clock):
+    log = io.StringIO()
+    show = Progress(log, label="compare ")
+    for finished in range(1, 31):
+        clock[0] += 5.0
+        show(finished, 120)
+    show.close()
+    first, second = log.getvalue().splitlines()
+    assert first.startswith("compare 12/120  ")
+    assert first.endswith(" left")
+    assert second.startswith("compare 24/120  ")
+
+
+def test_a_short_study_writes_no_line_into_a_log(clock):
+    log = io.StringIO()
+    show = Progress(log)
     clock[0] += 5.0
     show(1, 2)
+    show(2, 2)
     show.close()
-    assert file.getvalue() == ""
+    assert log.getvalue() == ""
+
+
+def test_a_log_that_nobody_reads_stops_no_study(clock):
+    class Closed(io.StringIO):
+        def write(self, text):
+            raise BrokenPipeError
+
+    show = Progress(Closed())
+    clock[0] += 100.0
+    show(1, 2)
+    show.close()
 
 
 def test_environment_says_where_and_how(monkeypatch):

@@ -3,6 +3,7 @@
 from rrnn_opt.study.comparison.catalogue import GROUPS, installed, set_names
 from rrnn_opt.study.comparison.entrants import Entrant, chosen, entrants
 from rrnn_opt.study.comparison.interchange import (
+    is_own,
     named_set,
     own_sets,
     write_test_set,
@@ -20,6 +21,7 @@ __all__ = [
     "chosen",
     "entrants",
     "installed",
+    "is_own",
     "named_set",
     "own_sets",
     "set_names",

@@ -1,4 +1,4 @@
-"""Problem sets from outside: a user's Python file, a test set of qpbenchmark."""
+"""Problem sets from outside: a user's file or folder, a test set of qpbenchmark."""
 
 from __future__ import annotations
 
@@ -12,25 +12,40 @@ import numpy as np
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.files import from_python, read_bytes, shown_path
 from rrnn_opt.solving import Instance
+from rrnn_opt.study.comparison.catalogue import GROUPS
+from rrnn_opt.study.comparison.folder import KEYS, read_folder
 from rrnn_opt.study.comparison.problem_set import ProblemSet, settled_truth
 
-KEYS = ("P", "q", "G", "h", "A", "b", "lb", "ub")
-"""Columns of a qpbenchmark test set, matrices row by row; and "name"."""
+
+def is_own(path: str) -> bool:
+    """Whether a word names a user's own sets: a file, or a folder that is there.
+
+    Args:
+        path: as given on the command line; names of our studies are none.
+    """
+    return path.endswith((".py", ".parquet")) or (
+        path not in (*GROUPS, *GROUPS["all"]) and Path(path).is_dir()
+    )
 
 
 def own_sets(path: str) -> dict[str, ProblemSet]:
-    """Sets of a Python file that defines ``cases()``, or of a Parquet test set.
+    """Sets of a Python file with ``cases()``, a folder, or a Parquet test set.
 
     ``cases()`` gives ``ProblemSet``s, or pairs of a name and a list of
     ``qpsolvers.Problem``; a list is taken for a sequence where all have one shape.
 
     Args:
-        path: a ``.py`` file, or a ``.parquet`` file in qpbenchmark's form.
+        path: a ``.py`` file, a ``.parquet`` file in qpbenchmark's form, or a folder
+            of ``.npz`` files as ``qpsolvers.Problem.save`` writes them, which are
+            taken in the order of their names for one set.
 
     Raises:
         RrnnError: the file cannot be read or holds nothing of the kind.
     """
-    sets = _read_test_set(path) if path.endswith(".parquet") else _run_file(path)
+    if Path(path).is_dir():
+        sets = [_made(path, read_folder(path))]
+    else:
+        sets = _read_test_set(path) if path.endswith(".parquet") else _run_file(path)
     found = {problems.name: problems for problems in sets}
     if not found or len(found) != len(sets):
         raise RrnnError(f"{path}: needs at least one set, each of a name of its own")
@@ -99,8 +114,6 @@ def _run_file(path: str) -> list[ProblemSet]:
 
 
 def _read_test_set(path: str) -> list[ProblemSet]:
-    from qpsolvers import Problem
-
     _, pq = _arrow()
     read_bytes(path)
     try:
@@ -110,10 +123,15 @@ def _read_test_set(path: str) -> list[ProblemSet]:
         raise RrnnError(f"{path}: is no Parquet test set ({reason})") from error
     if not rows or not {*KEYS} <= set(rows[0]):
         raise RrnnError(f"{path}: a test set has the columns {', '.join(KEYS)}")
-    made = [
-        Problem(**_programme(row, f"{path}, row {k}")) for k, row in enumerate(rows)
-    ]
-    return [named_set(Path(path).stem, made)]
+    return [_made(path, [(f"{path}, row {k}", row) for k, row in enumerate(rows)])]
+
+
+def _made(path: str, rows: Sequence[tuple[str, Mapping[str, Any]]]) -> ProblemSet:
+    """A set of arrays row by row, named as the file or folder is."""
+    from qpsolvers import Problem
+
+    name = Path(path).resolve().stem
+    return named_set(name, [Problem(**_programme(row, at)) for at, row in rows])
 
 
 def _programme(row: Mapping[str, Any], where: str) -> dict[str, Any]:
