@@ -26,7 +26,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace, out: Output) -> int:
-    """Write the page of a plan, or find that of a report, and print its path."""
+    """Write the page of a plan, or find that of a report, and print its path.
+
+    Raises:
+        DocumentError: the folder holds neither a plan nor a page.
+    """
     source = Path(args.result)
     page = _report(source)
     if page is None:
