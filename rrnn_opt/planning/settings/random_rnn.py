@@ -33,7 +33,8 @@ class RandomRnn:
         ik_step: largest step of the inverse kinematics, rad.
         ik_steps: most steps of one inverse kinematics run.
         ik_share: share of the goal tolerance that it must reach.
-        ik_tries: runs before the search starts.
+        ik_tries: runs for the first goal posture; between thin boards one in some
+            thousand is free.  After them the plan ends without a posture.
         edge: a coordinate of the random attraction is ``u^edge / 2`` of its range
             away from a limit, u uniform; 1 draws uniformly.  Attractions from
             near the limits pull a slide through more of the space.
@@ -65,7 +66,7 @@ class RandomRnn:
     ik_step: float = 0.3
     ik_steps: int = 60
     ik_share: float = 0.2
-    ik_tries: int = 500
+    ik_tries: int = 20_000
     edge: int = 6
     project: bool = True
     connect: bool = True
