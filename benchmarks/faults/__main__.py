@@ -122,6 +122,7 @@ def answer(process: subprocess.Popen[str], way: str) -> str:
     if code == -WAYS[way]:
         return "ended there" if way == "SIGKILL" else "ended before"
     if way == "SIGKILL" or code != 128 + WAYS[way]:
+        print(f"exit status {code}", said, file=sys.stderr)
         return "wrong status"
     lines = [line for line in said.splitlines() if "interrupted" in line]
     if "Traceback" in said or len(lines) != 1:

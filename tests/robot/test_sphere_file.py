@@ -66,3 +66,11 @@ def test_links_on_one_joint_never_pair():
     spheres = [Sphere(link, joint, np.zeros(3), 1.0) for link, joint in joints.items()]
     pairs = checked_pairs(spheres, frozenset({frozenset("cd")}))
     assert pairs == (("a", "c"), ("a", "d"), ("b", "c"), ("b", "d"))
+
+
+def test_more_spheres_than_anyone_fits_are_refused(tmp_path):
+    ball = {"center": [0.0, 0.0, 0.0], "radius": 0.1}
+    path = tmp_path / "s.json"
+    path.write_text(json.dumps({"links": {"a": [ball] * 5001}}))
+    with pytest.raises(RobotError, match="at most 5000"):
+        SphereFile.load(path)

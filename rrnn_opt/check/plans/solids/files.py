@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+import os
+import stat
 import struct
 from collections.abc import Mapping
 from pathlib import Path
@@ -14,6 +16,9 @@ from rrnn_opt.check.plans import reading
 from rrnn_opt.check.plans.reading import Array, get
 from rrnn_opt.errors import DocumentError
 
+LARGEST = 256 * 2**20
+"""Bytes of a mesh or point file that are read."""
+
 
 def read_points(entry: Mapping[str, Any], name: str) -> Array:
     """The points of an obstacle's file (.npy, .csv, .stl or .obj), (n, 3).
@@ -24,14 +29,26 @@ def read_points(entry: Mapping[str, Any], name: str) -> Array:
     """
     path = Path(reading.text(get(entry, "path", name), f"{name}.path"))
     try:
-        raw = path.read_bytes()
-        found = _reader(path.suffix.lower())(raw)
-    except (OSError, ValueError, KeyError, struct.error) as error:
+        read = _reader(path.suffix.lower())
+        raw = _bytes(path)
+        found = read(raw)
+        if not len(found):  # an obstacle of nothing would never be hit
+            raise ValueError("it holds no points")
+    except (OSError, ValueError, TypeError, LookupError, struct.error) as error:
         raise DocumentError(f"{name}.path", f"{path} is unreadable: {error}") from None
     digest = entry.get("sha256")
     if digest and digest != hashlib.sha256(raw).hexdigest():
         raise DocumentError(f"{name}.path", f"{path} has changed since the plan")
     return reading.numbers(found, (None, 3), f"{name}.path")
+
+
+def _bytes(path: Path) -> bytes:
+    """All bytes of a regular file; a pipe or a device would never end."""
+    with open(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)), "rb") as file:
+        found = os.fstat(file.fileno())
+        if not stat.S_ISREG(found.st_mode) or found.st_size > LARGEST:
+            raise ValueError(f"no file of at most {LARGEST >> 20} MiB")
+        return file.read(LARGEST)
 
 
 def _reader(suffix: str) -> Any:
