@@ -73,4 +73,4 @@ def test_more_spheres_than_anyone_fits_are_refused(tmp_path):
     path = tmp_path / "s.json"
     path.write_text(json.dumps({"links": {"a": [ball] * 5001}}))
     with pytest.raises(RobotError, match="at most 5000"):
-        SphereFile.load(path)
+        read_sphere_file(path)
