@@ -107,7 +107,7 @@ class Path:
                 kept[-1] = last
             elif np.any(self.goal != self.start):
                 kept.append(last)
-        return Path(self.waypoints[kept])
+        return sound_path(self.waypoints[kept])
 
     def resampled(self, spacing: float) -> Path:
         """Evenly spaced points of the path, both ends exact.
@@ -118,4 +118,16 @@ class Path:
             spacing: largest distance of neighbours along the path, rad or m.
         """
         pieces = max(1, int(np.ceil(self.length / spacing)))
-        return Path(self.at(np.linspace(0.0, self.length, pieces + 1)))
+        return sound_path(self.at(np.linspace(0.0, self.length, pieces + 1)))
+
+
+def sound_path(waypoints: Array) -> Path:
+    """A path of points of another one: they are not looked at again, nor copied.
+
+    Args:
+        waypoints: (N, nv), finite; nobody may change them from now on.
+    """
+    path = object.__new__(Path)
+    waypoints.flags.writeable = False
+    object.__setattr__(path, "waypoints", waypoints)
+    return path

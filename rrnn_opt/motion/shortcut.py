@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rrnn_opt.arguments import checked
-from rrnn_opt.motion.path import SAME, Array, Path
+from rrnn_opt.motion.path import SAME, Array, Path, sound_path
 
 SegmentIsFree = Callable[[Array, Array], bool]
 ATTEMPTS = 100
@@ -60,7 +60,7 @@ def _greedy(path: Path, free: SegmentIsFree) -> Path:
             there = here + (there - here) // 2
         here = there
         kept.append(here)
-    return Path(points[kept])
+    return sound_path(points[kept])
 
 
 def _cut(path: Path, low: float, high: float, free: SegmentIsFree) -> Path:
@@ -75,4 +75,4 @@ def _cut(path: Path, low: float, high: float, free: SegmentIsFree) -> Path:
     if saved <= SAME or not free(a, b):
         return path
     joined = np.vstack([points[:first], a, b, points[last:]])
-    return Path(joined).without_duplicates()
+    return sound_path(joined).without_duplicates()

@@ -56,10 +56,6 @@ class ObstacleTarget:
         """See :class:`Target`."""
         return (self.movers.spheres[self._own],)
 
-    def solid(self, pair: Index) -> Index:
-        """See :class:`Target`."""
-        return self._solid[pair]
-
     def room(self, pair: Index) -> Array:
         """See :class:`Target`."""
         return np.asarray(self.slack[self._solid[pair]])

@@ -46,10 +46,6 @@ class SelfTarget:
         """See :class:`Target`."""
         return tuple(side.spheres for side in self.sides)
 
-    def solid(self, pair: Index) -> Index:
-        """See :class:`Target`: no solid, all alike."""
-        return np.zeros(len(pair), dtype=np.int64)
-
     def room(self, pair: Index) -> Array:
         """See :class:`Target`."""
         return self.slack

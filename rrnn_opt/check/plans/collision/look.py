@@ -66,7 +66,6 @@ def look(
         work = _opened(_first_look(batch, now, effort, ledger))
     _measure(work, now, ledger)
     while coarse := [item for item in work if item.target.finer is not None]:
-        _guess([_nearest(item) for item in coarse], now, ledger)
         _sift(coarse, batch, now, _wish(batch, effort, ledger), ledger)
         opened = _opened(coarse)
         _measure(opened, now, ledger)
@@ -112,14 +111,6 @@ def _nearest_of_all(target: Target, found: FirstLook) -> _Near:
     every = np.arange(solids)
     pair, box = np.divmod(best, boxes)
     return _Near(target, rows[every, best], box, pair + own * every)
-
-
-def _nearest(item: Work) -> _Near:
-    solid = item.target.solid(item.pair)
-    order = np.lexsort((item.d, solid))
-    solid = solid[order]
-    best = order[np.append(True, solid[1:] != solid[:-1])]
-    return _Near(item.target, item.d[best], item.box[best], item.pair[best])
 
 
 def _guess(coarse: Sequence[_Near], now: Poses, ledger: Ledger) -> None:

@@ -59,9 +59,6 @@ class Target(Protocol):
     def finer(self) -> Finer | None:
         """Where the pairs are taken apart; None if they are single spheres."""
 
-    def solid(self, pair: Index) -> Index:
-        """Which of the solids a pair is with, (M,)."""
-
     def room(self, pair: Index) -> Array:
         """The slack of each pair, (M,), or of all, (1,), m."""
 
