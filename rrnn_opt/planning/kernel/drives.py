@@ -5,21 +5,9 @@ from __future__ import annotations
 import casadi as ca
 
 from rrnn_opt.formulations.slide import joint_attraction, row, tip_attraction
+from rrnn_opt.planning.kernel.function import emitted_function
 from rrnn_opt.robot import Robot
 from rrnn_opt.robot.robot import JointTree
-
-
-def emitted_function(
-    name: str, inputs: dict[str, ca.SX], outputs: dict[str, ca.SX]
-) -> ca.Function:
-    """A function that is emitted under its own name, results dense."""
-    return ca.Function(
-        name,
-        list(inputs.values()),
-        [ca.densify(value) for value in outputs.values()],
-        list(inputs),
-        list(outputs),
-    )
 
 
 def tip_jacobian(

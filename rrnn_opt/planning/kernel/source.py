@@ -15,7 +15,8 @@ from rrnn_opt import emit
 from rrnn_opt.formulations.slide import offset, row, step_box
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.kernel.dispatch import dispatch
-from rrnn_opt.planning.kernel.drives import drive_functions, emitted_function
+from rrnn_opt.planning.kernel.drives import drive_functions
+from rrnn_opt.planning.kernel.function import emitted_function
 from rrnn_opt.planning.kernel.tables import LANES, tables
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.robot.motion_bound import motion_bound, travel

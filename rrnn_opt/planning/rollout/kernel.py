@@ -12,7 +12,8 @@ from rrnn_opt.formulations.acceleration_limits import acceleration_bounds
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.formulations.signs import Band
 from rrnn_opt.networks import MemoryCell
-from rrnn_opt.planning.kernel.drives import emitted_function, tip_jacobian
+from rrnn_opt.planning.kernel.drives import tip_jacobian
+from rrnn_opt.planning.kernel.function import emitted_function
 from rrnn_opt.planning.kernel.source import source
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.robot.bound import ancestor_mask
