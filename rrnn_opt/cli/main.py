@@ -103,7 +103,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     name = next((word for word in words if word in COMMANDS), "")
     with opened("--json" in words) as out, noticed() as interrupt:
         code = _guarded(words, name, out, interrupt)
-        return interrupt.status if interrupt.seen else code
+        if not interrupt.seen:
+            return code
+        if code != interrupt.status:  # a library kept it, or it came at the end
+            out.note(f"rrnn: {interrupt.sentence}; the command had come to its end")
+        return interrupt.status
 
 
 def _guarded(words: list[str], name: str, out: Output, interrupt: Interrupt) -> int:

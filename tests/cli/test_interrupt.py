@@ -27,7 +27,9 @@ def test_an_interrupt_that_a_library_swallows_still_decides(capfd, monkeypatch):
     before = signal.getsignal(signal.SIGINT)
     monkeypatch.setattr(COMMANDS["robots"], "run", deaf)
     assert main(["robots", "--json"]) == 130
-    assert json.loads(capfd.readouterr().out) == {"went": "on"}
+    shown, said = capfd.readouterr()
+    assert json.loads(shown) == {"went": "on"}
+    assert said == "rrnn: interrupted; the command had come to its end\n"
     assert signal.getsignal(signal.SIGINT) is before
 
 
