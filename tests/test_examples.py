@@ -98,3 +98,26 @@ def test_the_proof_of_the_tutorial(capfd):
     (block,) = blocks("docs/tutorials/verify.md")
     exec(compile(block, "verify.md", "exec"), {"__name__": "__main__"})
     assert capfd.readouterr().out.split() == ["PROVED", "exact"]
+
+
+def test_the_problem_file_of_the_tutorial_and_its_csv(tmp_path, capfd):
+    page = (ROOT / "docs/tutorials/plan.md").read_text("utf-8")
+    (problem,) = re.findall(r"```json\n(.*?)```", page, re.S)
+    (tmp_path / "shelf.json").write_text(problem)
+    assert main(["plan", "shelf.json", "--out", "runs/window"]) == 0
+    (block,) = blocks("docs/tutorials/plan.md")
+    exec(compile(block, "plan.md", "exec"), {"__name__": "__main__"})
+    assert "7) largest step [rad] 0.0" in capfd.readouterr().out
+
+
+def test_every_field_of_a_problem_file_is_in_the_tutorial():
+    from rrnn_opt.planning.problem import goals, problem
+    from rrnn_opt.scene import shapes
+
+    page = (ROOT / "docs/tutorials/plan.md").read_text("utf-8")
+    known = {*problem._REQUIRED, *problem._OPTIONAL, *goals._FIELDS} - {"name"}
+    named = {name for name in known | {"name"} if f"`{name}`" in page}
+    named |= {"joints"} if '{"joints": [..]}' in page else set()
+    assert named >= known
+    kinds = (shapes.Box, shapes.Cylinder, shapes.Capsule, shapes.Sphere)
+    assert [k.kind for k in kinds if f"`{k.kind}`" not in page] == []

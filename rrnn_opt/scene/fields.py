@@ -27,6 +27,7 @@ UNIT_SLACK = 1e-3
 """A direction or quaternion this close to unit length is normalised."""
 
 _NORMALISED = 1e-14
+_QUATERNION = 4
 _SHOWN = 40
 
 
@@ -127,7 +128,10 @@ def unit(value: object, length: int, field: str) -> tuple[Array, float]:
     array = vector(value, length, field)
     norm = float(np.linalg.norm(array))
     if not abs(norm - 1.0) < UNIT_SLACK:
-        raise ProblemError(field, f"must have unit length, has {norm:.6g}")
+        remedy = "" if norm == 0.0 else f"; divide it by {norm:.6g}"
+        order = ", its order is x, y, z, w" if length == _QUATERNION else ""
+        message = f"must have unit length, has {norm:.6g}{remedy}{order}"
+        raise ProblemError(field, message)
     if abs(norm - 1.0) <= _NORMALISED:
         return array, 1.0
     array = array / norm

@@ -75,6 +75,7 @@ def test_start_equal_to_goal(window_problem):
     ("change", "words"),
     [
         ({"goal": {"position": [0.0, 0.0, 3.0]}}, "goal is beyond reach"),
+        ({"goal": {"position": [0.0, 0.0, 900.0]}}, "positions are metres"),
         ({"margin": 0.2}, "start is too close"),
         (
             {

@@ -144,6 +144,10 @@ def _require_axis(axis: object, quat_xyzw: Array | None) -> None:
 
 Goal = JointGoal | TipGoal
 
+_OPTIONAL = ("tolerance", "quat_xyzw", "angle_tolerance", "region", "free_axis")
+_FIELDS = ("joints", "position", *_OPTIONAL)
+_FORMS = ', {"position": [x, y, z]} or {"joints": [..]}'
+
 
 def goal_name(index: int, count: int) -> str:
     """Name of a goal's field: "goal", or "goal[2]" in a list of several."""
@@ -162,7 +166,12 @@ def goals_from_data(data: object) -> tuple[Goal, ...]:
 
 def _goal(data: object, field: str) -> Goal:
     if not isinstance(data, dict):
-        raise ProblemError(field, f"expected an object, got {fields.shown(data)}")
+        message = f"expected an object{_FORMS}, got {fields.shown(data)}"
+        raise ProblemError(field, message)
+    for key in data:
+        if key not in _FIELDS:
+            message = f"is not a known field; {fields.suggestion(key, _FIELDS)}"
+            raise ProblemError(fields.join(field, key), message)
     try:
         if "joints" in data:
             return JointGoal(**fields.record(data, "", required=("joints",)))
@@ -172,8 +181,7 @@ def _goal(data: object, field: str) -> Goal:
 
 
 def _tip_goal(data: dict[Any, Any]) -> TipGoal:
-    optional = ("tolerance", "quat_xyzw", "angle_tolerance", "region", "free_axis")
-    given = fields.record(data, "", required=("position",), optional=optional)
+    given = fields.record(data, "", required=("position",), optional=_OPTIONAL)
     for key, wanted in (("quat_xyzw", "a list of 4 numbers"), ("free_axis", "an axis")):
         if key in given and given[key] is None:
             raise ProblemError(key, f"expected {wanted}, got None")

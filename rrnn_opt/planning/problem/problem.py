@@ -29,6 +29,7 @@ from rrnn_opt.scene.scene import Scene
 
 Array = NDArray[np.float64]
 
+_TURN = 2.0 * np.pi
 _REQUIRED = ("robot", "start", "goal")
 _OPTIONAL = ("name", "frame", "spheres", "locked", "obstacles", "attached", "margin")
 
@@ -70,7 +71,7 @@ class Problem:
 
     def __post_init__(self) -> None:
         checked: dict[str, Any] = {
-            "start": fields.vector(self.start, self.robot.nv, "start"),
+            "start": _posture(self.robot, self.start, "start"),
             "goals": _goals(self.goals),
             "margin": fields.not_negative(self.margin, "margin"),
             "frame": _frame(self.robot, self.frame),
@@ -187,6 +188,17 @@ def _require_spheres(robot: Robot) -> None:
     raise ProblemError("robot", message)
 
 
+def _posture(robot: Robot, given: object, field: str) -> Array:
+    """A value for each joint; the message of a wrong count names the joints."""
+    try:
+        return fields.vector(given, robot.nv, field)
+    except ProblemError as error:
+        if error.field != field:
+            raise
+        message = f"{error.message}; one for each of {', '.join(robot.joint_names)}"
+        raise ProblemError(field, message) from None
+
+
 def _require_inside(robot: Robot, joints: Array, field: str) -> None:
     limits = zip(robot.limits.lower, robot.limits.upper, strict=True)
     for k, (low, high) in enumerate(limits):
@@ -194,6 +206,8 @@ def _require_inside(robot: Robot, joints: Array, field: str) -> None:
         if not low <= value <= high:
             bounds = f"its limits [{float(low)!r}, {float(high)!r}]"
             message = f"joint '{robot.joint_names[k]}' at {value!r} is outside {bounds}"
+            if abs(value) > _TURN:
+                message += "; angles are radians, lengths metres"
             raise ProblemError(f"{field}[{k}]", message)
 
 
@@ -206,5 +220,5 @@ def _require_goals(robot: Robot, goals: tuple[Goal, ...]) -> None:
             raise ProblemError(goal_name(index, len(goals)), message)
         if isinstance(goal, JointGoal):
             name = f"{goal_name(index, len(goals))}.joints"
-            fields.vector(goal.joints, robot.nv, name)
+            _posture(robot, goal.joints, name)
             _require_inside(robot, goal.joints, name)

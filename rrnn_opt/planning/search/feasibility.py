@@ -17,6 +17,9 @@ from rrnn_opt.robot.robot import CONTINUOUS, Robot
 
 Array = NDArray[np.float64]
 
+_MILLIMETRES = 20.0
+"""A goal as many reaches away was hardly written in metres."""
+
 
 @dataclass(frozen=True)
 class Infeasible:
@@ -86,9 +89,10 @@ def out_of_reach(problem: Problem, goal: TipGoal) -> Infeasible | None:
     distance = goal.distance(centre)
     if distance <= radius + goal.tolerance:
         return None
+    units = "; positions are metres" if distance > _MILLIMETRES * radius else ""
     return Infeasible(
         f"goal is beyond reach: {distance:.6g} m from the first joint, while the arm"
-        f" reaches {radius:.6g} m",
+        f" reaches {radius:.6g} m{units}",
         {"distance": distance, "reach": radius, "center": centre.tolist()},
     )
 
