@@ -18,8 +18,8 @@ PATIENCE_S = 180.0
 MANY = 50
 """Cases from which on a shorter way is named."""
 NOTHING = (
-    "name a study: rrnn compare quick --solvers osqp,daqp,rrnn takes about a minute;"
-    " rrnn compare --list shows all"
+    "name a study: rrnn compare quick --solvers osqp,daqp,rrnn is the quick way, all"
+    " solvers take ten times as long; rrnn compare --list shows what there is"
 )
 
 
