@@ -145,3 +145,13 @@ def test_results_may_overwrite_arguments():
     q = np.array([1.0, 2.0, 4.0])
     program.call("f", q, out=(q,))
     np.testing.assert_array_equal(q, [4.0, 3.0, 1.0])
+
+
+@pytest.mark.parametrize(("real", "suffix"), [("double", ""), ("float", "f")])
+@pytest.mark.parametrize("trig", ["own", "libm"])
+def test_the_library_is_called_in_the_type_of_the_numbers(real, suffix, trig):
+    """A ``sqrt`` among floats has the same value and is software on a Cortex-M4F."""
+    head = re.sub(r"/\*.*?\*/", "", emit.prologue(real, trig=trig), flags=re.DOTALL)
+    called = re.findall(r"\b(sqrt|fabs|sin|cos|floor|rint)(f?)\(", head)
+    assert {name for name, _ in called} >= {"sqrt", "fabs"}
+    assert {ending for _, ending in called} == {suffix}
