@@ -52,7 +52,7 @@ def _several(origin: Any, within: tuple[Any, ...]) -> Test:
         if isinstance(value, list | tuple | np.ndarray):
             return all(part(entry) for entry in value)
         return isinstance(value, open_kind) and not isinstance(
-            value, str | bytes | Mapping
+            value, str | bytes | memoryview | Mapping
         )
 
     return test
@@ -76,7 +76,7 @@ def is_whole(value: Any) -> bool:
 
 def is_numeric(value: Any) -> bool:
     """Whether a value is an array of real numbers, or can be taken for one."""
-    if isinstance(value, str | bytes | Mapping | set):
+    if isinstance(value, str | bytes | memoryview | Mapping | set):
         return False
     try:
         array = np.asarray(value)

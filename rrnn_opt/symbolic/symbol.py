@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.arguments import checked, require_numeric, require_parts
-from rrnn_opt.errors import RrnnError, ShapeError
+from rrnn_opt.errors import ArgumentError, RrnnError, ShapeError
 
 Expr = ca.SX
 Value = ca.SX | NDArray[np.float64]
@@ -22,8 +22,14 @@ def shape_of(value: Value) -> tuple[int, int]:
 
     Args:
         value: SX or array of any shape of at most two dimensions.
+
+    Raises:
+        ArgumentError: it is neither, or a single number.
     """
+    require_parts(value, "expression", ("shape",))
     shape = tuple(int(n) for n in value.shape)
+    if not shape:
+        raise ArgumentError("expression", "expected rows, got a single number")
     return (shape[0], 1) if len(shape) == 1 else shape  # type: ignore[return-value]
 
 
@@ -43,7 +49,8 @@ def require_shape(value: Value, shape: tuple[int, int], name: str) -> None:
         ShapeError: the shape differs.
     """
     require_parts(value, name, ("shape",))
-    if getattr(getattr(value, "dtype", None), "kind", "") == "O":
+    kind = getattr(getattr(value, "dtype", None), "kind", "")
+    if kind not in tuple("biuf") and not isinstance(value, ca.SX | ca.DM | ca.MX):
         require_numeric(value, name)
     got = tuple(int(n) for n in value.shape)
     if got != shape and not (len(got) == 1 and (got[0], 1) == shape):
