@@ -50,7 +50,7 @@ def memory_cell(axes: Any, activity: Array) -> None:
     axes.set_ylim(-0.06, 1.06)
     dress(axes, "memory-cell activity before each exploration", "exploration", order)
     axes.set_xlim(0.5, len(order) + 0.5)
-    axes.xaxis.get_major_locator().set_params(integer=True)
+    axes.xaxis.get_major_locator().set_params(integer=True, min_n_ticks=1)
 
 
 def clearance(

@@ -33,6 +33,14 @@ def draw_key(figure: Any, drawing: Drawing) -> None:
         figure.text(x, ROWS[1], "not drawn: " + _some(drawing.missing), **NOTE)
 
 
+def page_key(drawing: Drawing) -> list[tuple[str, str]]:
+    """Colour and meaning of what the 3D scene of a page shows."""
+    entries = [entry for entry in _solid(drawing) if entry[0] not in (START, OBSTACLE)]
+    if drawing.shapes:
+        entries.append((OBSTACLE, "obstacles"))
+    return [*entries, *_searched(drawing)]
+
+
 def nearest_approach(drawing: Drawing) -> str:
     """The closest approach in words; empty without one."""
     near = drawing.closest

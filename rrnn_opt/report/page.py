@@ -17,10 +17,16 @@ from typing import Any
 
 from rrnn_opt.report.drawing import Drawing, drawing_of
 from rrnn_opt.report.files import write_text
-from rrnn_opt.report.key import nearest_approach
+from rrnn_opt.report.key import nearest_approach, page_key
+from rrnn_opt.report.palette import END
 from rrnn_opt.report.picture import chart_list, picture
 from rrnn_opt.report.save import save
 from rrnn_opt.report.viewer import INSTALL, scene_html
+
+WAITING = (
+    '<p class="wait">The scene is being unpacked; it needs WebGL. '
+    "Without it, look at plan.png.</p>"
+)
 
 
 def write_page(document: dict[str, Any], path: str | Path) -> None:
@@ -66,13 +72,25 @@ def _scene(document: dict[str, Any], drawing: Drawing) -> str:
     inner = scene_html(drawing)
     if inner is not None:
         source = html.escape(inner, quote=True)
-        return f'<iframe title="scene" srcdoc="{source}"></iframe>'
+        return (
+            f'{WAITING}<iframe title="scene" srcdoc="{source}"></iframe>{_key(drawing)}'
+        )
     data = base64.b64encode(picture(document, drawing)).decode("ascii")
     return (
         f'<figure><img alt="the motion" src="data:image/png;base64,{data}">'
         f"<figcaption>For the moving scene: <code>{INSTALL}</code></figcaption>"
         "</figure>"
     )
+
+
+def _key(drawing: Drawing) -> str:
+    """What the colours of the scene mean."""
+    entries = "".join(
+        f'<span><i style="background:{colour}"></i>{html.escape(words)}</span>'
+        for colour, words in [(END, "robot; pale: its end"), *page_key(drawing)]
+        if words != "end"
+    )
+    return f'<p class="key">{entries}</p>'
 
 
 def _svg(panel: Any) -> str:
