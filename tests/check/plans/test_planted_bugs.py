@@ -13,7 +13,8 @@ import pytest
 from rrnn_opt.check import certify_trajectory
 from rrnn_opt.motion import Trajectory, stop_and_go
 from rrnn_opt.networks import MemoryCell
-from rrnn_opt.planning import Problem, RandomRnn, kernel
+from rrnn_opt.planning import Problem, RandomRnn
+from rrnn_opt.planning.kernel import source as kernel
 from rrnn_opt.planning.search.library import Runtime, Search
 from rrnn_opt.planning.search.request import pack
 from rrnn_opt.robot import Robot
