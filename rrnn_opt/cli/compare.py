@@ -6,6 +6,7 @@ import argparse
 import shlex
 import sys
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
 from rrnn_opt.cli.arguments import count, seed
@@ -15,6 +16,8 @@ from rrnn_opt.cli.output import Output, UsageError
 HELP = "compare QP solvers and networks on control streams and drawn problems"
 PATIENCE_S = 180.0
 """Wall time that one solver may take on one set, s."""
+SETS_WIDTH = 64
+"""Letters of a line of sets."""
 MANY = 50
 """Cases from which on a shorter way is named."""
 NOTHING = (
@@ -204,7 +207,12 @@ def _list(out: Output) -> int:
         for e in entrants()
     ]
     out.document({"studies": known, "solvers": who})
-    out.say(table(("study", "sets"), [(k, ", ".join(v)) for k, v in known.items()]))
+    rows = [
+        (name if k == 0 else "", line)
+        for name, sets in known.items()
+        for k, line in enumerate(wrap(", ".join(sets), SETS_WIDTH))
+    ]
+    out.say(table(("study", "sets"), rows))
     out.say()
     lines = [[*list(e.values())[:-1], ", ".join(e["modes"])] for e in who]
     out.say(table(("solver", "method", "licence", "package", "modes"), lines))

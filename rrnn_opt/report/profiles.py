@@ -128,4 +128,4 @@ def _percentiles(axes: Any, summaries: Sequence[Mapping[str, Any]]) -> None:
     axes.grid(True, axis="x", color="#e3e6ec", lw=0.6)
     axes.set_xlabel("time of one solve [us]", fontsize=8)
     axes.set_title("from the median to the worst", fontsize=9)
-    axes.legend(fontsize=7, frameon=False, loc="lower right")
+    axes.legend(fontsize=7, frameon=False, loc="lower left")

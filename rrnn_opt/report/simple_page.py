@@ -17,9 +17,11 @@ _STYLE = """
 body{font:15px/1.5 system-ui,sans-serif;color:#2b2f38;max-width:1200px;margin:2em auto;
 padding:0 1em}table{border-collapse:collapse;font-size:13px;margin:1em 0;display:block;
 overflow-x:auto}th,td{border-bottom:1px solid #e3e6ec;padding:3px 9px;text-align:left;
-font-variant-numeric:tabular-nums}th{background:#f4f6f9}img{max-width:100%}
+font-variant-numeric:tabular-nums}th{background:#f4f6f9}td.short{white-space:nowrap}img{max-width:100%}
 code{background:#f4f6f9;padding:1px 4px}
 """
+_SHORT = 24
+"""Letters of a cell that is not broken into lines."""
 
 
 def html_page(markdown: str, *, title: str, folder: Path) -> str:
@@ -67,9 +69,15 @@ def _table(lines: list[str], folder: Path) -> str:
     cells = "".join(f"<th>{_inline(c, folder)}</th>" for c in head)
     found = [f"<tr>{cells}</tr>"]
     for row in body:
-        cells = "".join(f"<td>{_inline(c, folder)}</td>" for c in row)
+        cells = "".join(_cell(c, folder) for c in row)
         found.append(f"<tr>{cells}</tr>")
     return f"<table>{''.join(found)}</table>"
+
+
+def _cell(text: str, folder: Path) -> str:
+    """Numbers, ranges and names stay on one line."""
+    kind = " class=short" if len(text) <= _SHORT else ""
+    return f"<td{kind}>{_inline(text, folder)}</td>"
 
 
 def _inline(text: str, folder: Path) -> str:

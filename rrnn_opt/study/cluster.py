@@ -21,7 +21,9 @@ class Cluster:
     A case whose worker is lost is given to another by the scheduler, as often as
     its setting ``distributed.scheduler.allowed-failures`` says.  Workers must
     have one thread each (``dask worker ADDRESS --nthreads 1``): more of them
-    would share one interpreter, and no time measured would mean anything.
+    would share one interpreter, and no time measured would mean anything.  A worker
+    ends the case it has before it takes another, also when whoever asked is gone:
+    there is no limit of time here, and one that hangs is freed by ending its worker.
 
     Attributes:
         address: of the scheduler, e.g. "tcp://127.0.0.1:8786".

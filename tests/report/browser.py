@@ -82,9 +82,10 @@ class Browser:
             time.sleep(0.2)
         raise TimeoutError(f"{expression}: not true within {seconds} s")
 
-    def screenshot(self) -> bytes:
-        """The window as PNG."""
-        return base64.b64decode(self.ask("Page.captureScreenshot")["data"])
+    def screenshot(self, box: tuple[float, float, float, float]) -> bytes:
+        """A part of the window (x, y, width, height) as PNG."""
+        clip = dict(zip(("x", "y", "width", "height"), box, strict=True)) | {"scale": 1}
+        return base64.b64decode(self.ask("Page.captureScreenshot", clip=clip)["data"])
 
     def _messages(self, seconds: float) -> Iterator[dict[str, Any]]:
         ready, _, _ = select.select([self._read], [], [], max(0.0, seconds))

@@ -1,6 +1,7 @@
 """The page of a plan in a real browser that has no network."""
 
 import importlib.util
+import time
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ _SPEC = importlib.util.spec_from_file_location(
 browser = importlib.util.module_from_spec(_SPEC)
 _SPEC.loader.exec_module(browser)
 
+BOX = ("x", "y", "width", "height")
 LOCAL = ("file:", "data:", "blob:", "about:")
 SCENE = "document.querySelector('iframe')?.contentDocument"
 PLAYER = f"{SCENE}?.querySelector('[role=slider]')"
@@ -54,9 +56,22 @@ def instant(tab):
     return float(tab.evaluate(f"{PLAYER}.getAttribute('aria-valuenow')"))
 
 
+def moving(tab, *, seconds):
+    """Does the scene change by itself, what is under and over it left out?"""
+    frame = "document.querySelector('iframe').getBoundingClientRect()"
+    x, y, width, height = (tab.evaluate(f"{frame}.{k}") for k in BOX)
+    middle = (x + width / 4, y + height / 4, width / 2, height / 2)
+    end, seen = time.monotonic() + seconds, set()
+    while len(seen) < 4 and time.monotonic() < end:
+        seen.add(tab.screenshot(middle))
+        time.sleep(0.5)
+    return len(seen) >= 4
+
+
 @pytest.mark.slow
 def test_the_page_plays_the_motion_offline_and_without_an_error(tab):
     begin = instant(tab)
     tab.wait_for(f"{PLAYER}.getAttribute('aria-valuenow') != {begin}")
+    assert moving(tab, seconds=120.0)
     assert [url for url in asked(tab.events) if not url.startswith(LOCAL)] == []
     assert list(complaints(tab.events)) == []
