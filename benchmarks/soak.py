@@ -185,14 +185,15 @@ def report(found: list[dict[str, Any]]) -> str:
 def _drift(found: list[dict[str, Any]]) -> list[str]:
     """Memory and time of each process, its first quarter beside its last."""
     told = ["", "Drift, first quarter of a process's plans to its last:", ""]
-    for job in sorted({row["job"] for row in found if "job" in row}):
-        mine = [row for row in found if row.get("job") == job]
+    runs = dict.fromkeys((row["commit"], row["job"]) for row in found if "job" in row)
+    for run in runs:
+        mine = [row for row in found if (row["commit"], row.get("job")) == run]
         part = max(1, len(mine) // 4)
         ends = (mine[:part], mine[-part:])
         memory = [np.median([row["memory_mb"] for row in rows]) for rows in ends]
         cpu = [np.median([1e3 * row["all_s"] for row in rows]) for rows in ends]
         told.append(
-            f"- process {job}, {len(mine)} plans: {memory[0]:.0f} to"
+            f"- {run[0]}, process {run[1]}, {len(mine)} plans: {memory[0]:.0f} to"
             f" {memory[1]:.0f} MB, CPU p50 {cpu[0]:.1f} to {cpu[1]:.1f} ms."
         )
     return told if len(told) > 3 else []
