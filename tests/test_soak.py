@@ -67,7 +67,7 @@ def test_a_stopped_run_goes_on(tmp_path, monkeypatch):
     assert [row["n"] for row in soak.rows(tmp_path)] == [0, 1, 2]
     table = (tmp_path / "soak.md").read_text("utf-8")
     assert "| all | 3 | 3 |" in table
-    assert "- process 0, 3 plans: " in table
+    assert ", process 0, 3 plans: " in table
 
 
 def test_every_hundredth_motion_is_sampled_too(monkeypatch):
