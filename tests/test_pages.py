@@ -88,3 +88,18 @@ def test_commands_of_the_page_of_troubles(tmp_path, monkeypatch, capfd):
                 scope.setenv(name, str(tmp_path / value))
             assert words[0] == "rrnn"
             assert main(words[1:]) == status, (words, capfd.readouterr().err)
+
+
+@pytest.mark.slow
+def test_commands_of_the_page_on_own_robots_do_what_they_say(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(ROOT / "examples" / "planar_arm.urdf", tmp_path)
+    shutil.copy(ROOT / "examples" / "planar_arm.urdf", tmp_path / "arm.urdf")
+    found = list(commands(ROOT / "docs" / "tutorials" / "own_robot.md"))
+    assert [words[1] for words, _ in found] == [
+        "robots",
+        "spheres",
+        "verify",
+        "generate",
+    ]
+    assert [main(words[1:]) for words, _ in found] == [status for _, status in found]

@@ -30,6 +30,7 @@ from rrnn_opt.cli import (
 )
 from rrnn_opt.cli.folders import FULL, os_sentence
 from rrnn_opt.cli.interrupt import Interrupt, noticed
+from rrnn_opt.cli.named import unknown
 from rrnn_opt.cli.output import Output, UsageError, opened
 from rrnn_opt.errors import RrnnError
 
@@ -90,6 +91,22 @@ def parser() -> argparse.ArgumentParser:
     return top
 
 
+def parsed(words: Sequence[str]) -> argparse.Namespace:
+    """Arguments of the command that the words name.
+
+    Raises:
+        UsageError: there is no such command, or it has no such argument.
+    """
+    first = next((word for word in words if not word.startswith("-")), None)
+    if first is not None and first not in COMMANDS:
+        raise UsageError(f"{unknown('command', first, COMMANDS)} (see rrnn --help)")
+    args, rest = parser().parse_known_args(words)
+    if rest:
+        told = f"unrecognized arguments: {' '.join(rest)}"
+        raise UsageError(f"{told} (see rrnn {args.command} --help)")
+    return args
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command.
 
@@ -128,7 +145,7 @@ def _run(words: list[str], out: Output) -> int:
     shown = io.StringIO()
     try:
         with contextlib.redirect_stdout(shown):
-            args = parser().parse_args(words)
+            args = parsed(words)
     except SystemExit:
         out.document({"text": shown.getvalue()})
         out.say(shown.getvalue().rstrip())

@@ -1,4 +1,4 @@
-"""``rrnn robots``: the built-in robots, their limits, sources and licences."""
+"""``rrnn robots``: robots, built in or read from a URDF, limits, sources, licences."""
 
 from __future__ import annotations
 
@@ -6,25 +6,25 @@ import argparse
 import math
 from typing import Any
 
+from rrnn_opt.cli import named
 from rrnn_opt.cli.output import Output
 
-HELP = "list the built-in robots"
+HELP = "list the built-in robots, or tell what is read from a URDF"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's arguments."""
-    parser.add_argument("name", nargs="*", help="only these")
+    parser.add_argument("name", nargs="*", help="only these; URDF files too")
 
 
 def run(args: argparse.Namespace, out: Output) -> int:
     """Print one block a robot."""
-    from rrnn_opt.robot import Robot
     from rrnn_opt.robot.builtin import BUILTIN
 
-    found = [described(Robot.builtin(name)) for name in args.name or BUILTIN]
+    found = [described(named.robot(name)) for name in args.name or BUILTIN]
     out.document({"robots": found})
-    for robot in found:
-        out.say(_block(robot) + "\n")
+    for facts in found:
+        out.say(_block(facts) + "\n")
     return 0
 
 
@@ -58,7 +58,7 @@ def _block(robot: dict[str, Any]) -> str:
         f"  frames   {', '.join(robot['frames'])}",
         f"  spheres  {robot['spheres']}{_inflation(robot['inflation_m'])}",
         f"  source   {robot['source']}",
-        f"  licence  {robot['licence']}",
+        f"  licence  {robot['licence'] or 'not stated'}",
     ]
     names = ("lower", "upper", "velocity", "acceleration")
     rows = list(zip(robot["joints"], *(robot["limits"][n] for n in names), strict=True))

@@ -119,14 +119,16 @@ def _text(facts: dict[str, Any]) -> str:
             link["link"],
             str(link["spheres"]),
             f"{1e3 * link['inflation_m']:.1f}",
-            f"{link['triangles'] - link['uncovered_triangles']}/{link['triangles']}",
+            _triangles(link["triangles"], link["uncovered_triangles"]),
         )
         for link in facts["links"]
     ]
     header = ("link", "spheres", "bulge [mm]", "triangles covered")
     verdict = "cover" if facts["covered"] else "DO NOT cover"
     pairs = len(facts["disabled_self_collision_pairs"])
-    head = f"{facts['spheres']} spheres {verdict} the geometry; {pairs} pairs disabled"
+    several = "pair" if pairs == 1 else "pairs"
+    head = f"{facts['spheres']} spheres {verdict} the geometry; {pairs} {several} of"
+    head += " links not checked (reasons in the file)"
     touch = facts["self_contact"]
     head += (
         f"\nlinks touch themselves in {touch['postures']} random postures: spheres"
@@ -134,3 +136,8 @@ def _text(facts: dict[str, Any]) -> str:
         f" added), geometry {touch['geometry']:.1%}"
     )
     return f"{head}\n{table(header, rows, indent=2)}\nwrote {facts['file']}"
+
+
+def _triangles(every: int, uncovered: int) -> str:
+    """How many are proved to be covered; primitives are covered by construction."""
+    return f"{every - uncovered}/{every}" if every else "no mesh"

@@ -1,4 +1,5 @@
 import json
+from pathlib import Path
 
 import pytest
 
@@ -44,6 +45,29 @@ def test_robots_names_limits_source_and_licence(capfd):
     assert all(r["source"] and r["licence"] for r in robots.values())
     assert main(["robots", "planar3"]) == 0
     assert "licence" in capfd.readouterr().out
+
+
+def test_robots_tells_what_is_read_from_a_file(capfd):
+    urdf = Path(__file__).parents[2] / "examples" / "planar_arm.urdf"
+    assert main(["robots", str(urdf), "--json"]) == 0
+    (robot,) = document(capfd)["robots"]
+    assert (robot["dof"], robot["tip"]) == (2, "tip")
+    assert "acceleration limit" in robot["source"]
+    assert main(["robots", str(urdf)]) == 0
+    assert "not stated" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["plna", "x.json"], "no command is called 'plna'; did you mean 'plan'?"),
+        (["plan", "--wat", "x.json"], "--wat (see rrnn plan --help)"),
+        (["robots", "pa11"], "did you mean 'pa10'?"),
+    ],
+)
+def test_a_slip_of_the_finger_is_answered_with_the_right_word(words, told, capfd):
+    assert main(words) == 2
+    assert told in capfd.readouterr().err
 
 
 def test_doctor_says_what_works(capfd):
