@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import json
 from typing import Any
 
 from rrnn_opt.cli.output import Output
-from rrnn_opt.errors import DocumentError
+from rrnn_opt.errors import DocumentError, RrnnError
 from rrnn_opt.files import read_json
 
 HELP = "judge a plan result or a claim's certificate again"
@@ -29,6 +30,9 @@ def run(args: argparse.Namespace, out: Output) -> int:
     out.document(answer)
     for line in _lines(answer):
         out.say(line)
+    if answer["kind"] != "claim" and not as_built_in(document):
+        name = document["problem"]["robot"]
+        out.note(f"judged with the file's robot, which is not the built-in {name}")
     return 0 if answer["holds"] else 1
 
 
@@ -52,6 +56,25 @@ def judged(document: dict[str, Any], *, exact: bool = False) -> dict[str, Any]:
             "claims", "are rows of a report: check one of the certificates beside it"
         )
     return check_plan(document, exact=exact).to_dict()
+
+
+def as_built_in(document: dict[str, Any]) -> bool:
+    """Is the robot of a plan the one that its problem names, if that is built in?
+
+    The checker takes every number from the file and knows no robot by name.
+    """
+    from rrnn_opt.planning import Problem
+    from rrnn_opt.robot.builtin import BUILTIN
+
+    problem = document.get("problem")
+    name = problem.get("robot") if isinstance(problem, dict) else None
+    if not isinstance(name, str) or name not in BUILTIN:
+        return True
+    try:
+        robot = Problem.from_dict(problem).robot.to_dict()
+    except RrnnError:  # what is wrong with the problem is not asked here
+        return True
+    return bool(json.loads(json.dumps(robot)) == document.get("robot"))
 
 
 def read(path: str) -> dict[str, Any]:

@@ -25,7 +25,7 @@ from rrnn_opt.report.viewer import INSTALL, scene_html
 
 WAITING = (
     '<p class="wait">The scene is being unpacked; it needs WebGL. '
-    "Without it, look at plan.png.</p>"
+    "Without it, rrnn plan --out writes a picture, plan.png.</p>"
 )
 
 

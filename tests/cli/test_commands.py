@@ -166,6 +166,13 @@ def test_check_and_view_of_a_plan_that_was_tampered_with(capfd, tmp_path):
     (tmp_path / "p.json").write_text(json.dumps(problem))
     assert main(["plan", "p.json", "--json"]) == 0
     plan = document(capfd)
+    (tmp_path / "plan.json").write_text(json.dumps(plan))
+    assert main(["check", "plan.json"]) == 0
+    assert capfd.readouterr().err == ""
+    plan["robot"]["spheres"][0]["radius"] /= 2
+    (tmp_path / "plan.json").write_text(json.dumps(plan))
+    assert main(["check", "plan.json"]) == 0  # it holds for this other robot
+    assert "not the built-in planar3" in capfd.readouterr().err
     plan["trajectory"]["q"][1][0] += 0.05
     (tmp_path / "plan.json").write_text(json.dumps(plan))
     assert main(["check", "plan.json", "--json"]) == 1
