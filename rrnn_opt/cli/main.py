@@ -48,7 +48,7 @@ COMMANDS: dict[str, Any] = {
     "robots": robots,
     "doctor": doctor,
 }
-FAILED, BAD_INPUT = 1, 2
+FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 
 
 class _Help(argparse.HelpFormatter):
@@ -122,7 +122,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         code = _guarded(words, name, out, interrupt)
         if not interrupt.seen:
             return code
-        if code != interrupt.status:  # a library kept it, or it came at the end
+        if code not in (interrupt.status, INTERRUPTED):  # it came at the end
             out.note(f"rrnn: {interrupt.sentence}; the command had come to its end")
         return interrupt.status
 
