@@ -22,7 +22,7 @@ NAMES = (
     "..",
     "x" * 5000,
     "<script>alert(1)</script>",
-    '"; system("touch /tmp/pwned"); //',
+    '"; system("touch pwned"); //',
     "*/ int evil(void) { return 1; } /*",
     "$(touch pwned)",
     "`touch pwned`",

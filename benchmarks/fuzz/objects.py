@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 
 from benchmarks.fuzz import mutation
-from benchmarks.fuzz.arguments import Call, attempt
+from benchmarks.fuzz.arguments import attempt
 from benchmarks.fuzz.judging import Entry
+from benchmarks.fuzz.motion_calls import Call
 
 
 def array(rng: random.Random) -> Any:
