@@ -1,6 +1,7 @@
 """Plan for hours, and follow every delivered motion with foreign distances.
 
     python -m benchmarks.soak [--plans N] [--hours H] [--jobs J] [--out DIR]
+    python -m benchmarks.soak --plan-only --time-limit 0.5   # memory and drift alone
 
 Plan n is of scene kind n modulo their number, with seed n: shipped scenarios,
 MotionBenchMaker problems, and random clutter around several arms.  No delivered
@@ -24,6 +25,7 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +43,23 @@ LIMITS = 1e-9
 """Excess over a limit that is rounding: m, rad, or a share of the limit."""
 
 
+@dataclass(frozen=True)
+class Task:
+    """What a run does.
+
+    Attributes:
+        out: folder of the rows.
+        plans: how many.
+        time_limit: of each search, s.
+        follow: follow what is delivered.
+    """
+
+    out: Path
+    plans: int
+    time_limit: float = TIME_LIMIT
+    follow: bool = True
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run, and write the table; 1 when anything delivered was not as promised."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -48,22 +67,25 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--hours", type=float, default=8.0)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--out", type=Path, default=RESULTS)
+    parser.add_argument("--time-limit", type=float, default=TIME_LIMIT, metavar="S")
+    parser.add_argument("--plan-only", action="store_true", help="follow nothing")
     parser.add_argument("--table", action="store_true", help="only write the table")
     args = parser.parse_args(argv)
     args.out.mkdir(parents=True, exist_ok=True)
     if not args.table:
         makers(args.out)  # spheres are fitted once
-        _spread(args.out, args.plans, args.jobs, time.monotonic() + 3600 * args.hours)
+        task = Task(args.out, args.plans, args.time_limit, not args.plan_only)
+        _spread(task, args.jobs, time.monotonic() + 3600 * args.hours)
     found = rows(args.out)
     write_text(args.out / "soak.md", report(found))
     print(report(found))
     return 1 if any(row["broken"] for row in found) else 0
 
 
-def _spread(out: Path, plans: int, jobs: int, until: float) -> None:
-    done = {row["n"] for row in rows(out)}
+def _spread(task: Task, jobs: int, until: float) -> None:
+    done = {row["n"] for row in rows(task.out)}
     context = multiprocessing.get_context("spawn")
-    work = [(out, job, jobs, plans, until, done) for job in range(jobs)]
+    work = [(task, job, jobs, until, done) for job in range(jobs)]
     workers = [context.Process(target=_work, args=args) for args in work[1:]]
     for worker in workers:
         worker.start()
@@ -73,17 +95,15 @@ def _spread(out: Path, plans: int, jobs: int, until: float) -> None:
         worker.join()
 
 
-def _work(
-    out: Path, job: int, jobs: int, plans: int, until: float, done: set[int]
-) -> None:
+def _work(task: Task, job: int, jobs: int, until: float, done: set[int]) -> None:
     """Every ``jobs``-th plan that is not done yet, one line each."""
-    kinds, commit = makers(out), _commit()
-    lines = Lines(out / f"rows.{job}.jsonl")
-    for n in range(job, plans, jobs):
+    kinds, commit = makers(task.out), _commit()
+    lines = Lines(task.out / f"rows.{job}.jsonl")
+    for n in range(job, task.plans, jobs):
         if time.monotonic() > until:
             return
         if n not in done:
-            row = {**judged(n, kinds), "commit": commit, "job": job}
+            row = {**judged(n, kinds, task), "commit": commit, "job": job}
             lines.append({**row, "memory_mb": _memory_mb()})
 
 
@@ -93,12 +113,12 @@ def _memory_mb() -> float:
     return pages * resource.getpagesize() / 1e6
 
 
-def judged(n: int, kinds: dict[str, Any]) -> dict[str, Any]:
+def judged(n: int, kinds: dict[str, Any], task: Task) -> dict[str, Any]:
     """Plan n, and what following it finds."""
     name = list(kinds)[n % len(kinds)]
     problem = kinds[name](n // len(kinds))
     begin = time.process_time()
-    document = plan(problem, seed=n, time_limit=TIME_LIMIT).to_dict()
+    document = plan(problem, seed=n, time_limit=task.time_limit).to_dict()
     row = {
         "n": n,
         "kind": name,
@@ -108,7 +128,7 @@ def judged(n: int, kinds: dict[str, Any]) -> dict[str, Any]:
         "all_s": time.process_time() - begin,
         "broken": [],
     }
-    if document["trajectory"]:
+    if document["trajectory"] and task.follow:
         row |= _followed(document, dense=n % DENSE == DENSE - 1)
     return row
 
