@@ -4,9 +4,9 @@ import json
 
 import pytest
 
-from benchmarks import soak
 from benchmarks.follow import ends_error, follow, sampled
-from benchmarks.soak_scenes import benchmark, shipped
+from benchmarks.soak import run as soak
+from benchmarks.soak.scenes import benchmark, shipped
 from rrnn_opt.planning import Problem, plan
 from rrnn_opt.scene.library import scenario
 
@@ -74,3 +74,11 @@ def test_every_hundredth_motion_is_sampled_too(monkeypatch):
     monkeypatch.setattr(soak, "DENSE", 1)
     monkeypatch.setattr(soak, "sampled", lambda document: -1e-3)
     assert soak.judged(0, KINDS)["broken"] == ["collision", "clearance"]
+
+
+def test_a_run_that_only_plans_claims_to_have_followed_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr(soak, "makers", lambda folder: KINDS)
+    words = ["--plans", "1", "--plan-only", "--time-limit", "5", "--out", str(tmp_path)]
+    assert soak.main(words) == 0
+    assert "least_m" not in soak.rows(tmp_path)[0]
+    assert "No trajectory was followed" in (tmp_path / "soak.md").read_text("utf-8")

@@ -139,9 +139,9 @@ def lines_of(folder):
 def test_a_killed_soak_loses_no_line(tmp_path, warm_cache):
     place = furnished(tmp_path / "place", warm_cache)
     code = (
-        "import sys, benchmarks.soak as soak\n"
+        "import sys, benchmarks.soak.run as soak\n"
         "from pathlib import Path\n"
-        "from benchmarks.soak_scenes import cluttered\n"
+        "from benchmarks.soak.scenes import cluttered\n"
         "from rrnn_opt.robot import Robot\n"
         "kind = {'planar3': cluttered(Robot.builtin('planar3'))}\n"
         "soak.makers = lambda out: kind\n"

@@ -16,28 +16,23 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import itertools
 import multiprocessing
-import platform
 import resource
 import subprocess
-import sys
 import time
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from benchmarks.follow import ends_error, follow, sampled
-from benchmarks.soak_scenes import makers
+from benchmarks.soak.scenes import makers
+from benchmarks.soak.table import report
 from rrnn_opt.planning import plan
 from rrnn_opt.report import write_text
-from rrnn_opt.study import Lines, read_lines, wilson
+from rrnn_opt.study import Lines, read_lines
 
-RESULTS = Path(__file__).parents[1] / "runs" / "soak"
+RESULTS = Path(__file__).parents[2] / "runs" / "soak"
 PLANS, DENSE, TIME_LIMIT = 100_000, 300, 20.0
 LIMITS = 1e-9
 """Excess over a limit that is rounding: m, rad, or a share of the limit."""
@@ -62,7 +57,7 @@ class Task:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run, and write the table; 1 when anything delivered was not as promised."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser("python -m benchmarks.soak", description=__doc__)
     parser.add_argument("--plans", type=int, default=PLANS)
     parser.add_argument("--hours", type=float, default=8.0)
     parser.add_argument("--jobs", type=int, default=1)
@@ -103,8 +98,9 @@ def _work(task: Task, job: int, jobs: int, until: float, done: set[int]) -> None
         if time.monotonic() > until:
             return
         if n not in done:
-            row = {**judged(n, kinds, task), "commit": commit, "job": job}
-            lines.append({**row, "memory_mb": _memory_mb()})
+            row = judged(n, kinds, time_limit=task.time_limit, followed=task.follow)
+            row |= {"commit": commit, "job": job, "memory_mb": _memory_mb()}
+            lines.append(row)
 
 
 def _memory_mb() -> float:
@@ -113,12 +109,18 @@ def _memory_mb() -> float:
     return pages * resource.getpagesize() / 1e6
 
 
-def judged(n: int, kinds: dict[str, Any], task: Task) -> dict[str, Any]:
+def judged(
+    n: int,
+    kinds: dict[str, Any],
+    *,
+    time_limit: float = TIME_LIMIT,
+    followed: bool = True,
+) -> dict[str, Any]:
     """Plan n, and what following it finds."""
     name = list(kinds)[n % len(kinds)]
     problem = kinds[name](n // len(kinds))
     begin = time.process_time()
-    document = plan(problem, seed=n, time_limit=task.time_limit).to_dict()
+    document = plan(problem, seed=n, time_limit=time_limit).to_dict()
     row = {
         "n": n,
         "kind": name,
@@ -128,7 +130,7 @@ def judged(n: int, kinds: dict[str, Any], task: Task) -> dict[str, Any]:
         "all_s": time.process_time() - begin,
         "broken": [],
     }
-    if document["trajectory"] and task.follow:
+    if document["trajectory"] and followed:
         row |= _followed(document, dense=n % DENSE == DENSE - 1)
     return row
 
@@ -167,98 +169,8 @@ def rows(out: Path) -> list[dict[str, Any]]:
     return [found[n] for n in sorted(found)]
 
 
-def report(found: list[dict[str, Any]]) -> str:
-    """The small table that is kept."""
-    kinds = list(dict.fromkeys(row["kind"] for row in found))
-    groups = [(kind, [r for r in found if r["kind"] == kind]) for kind in kinds]
-    body = [_line(name, mine) for name, mine in [*groups, ("all", found)] if mine]
-    header: tuple[str, ...] = (
-        "scenes",
-        "plans",
-        "solved",
-        "95 % interval",
-        "other ends",
-    )
-    header += ("least gap [mm]", "queries", "floored", "broken")
-    dense = [row for row in found if row.get("dense_m") is not None]
-    commits = ", ".join(dict.fromkeys(row["commit"] for row in found)) or "none"
-    date = time.strftime("%Y-%m-%d", time.gmtime())
-    spent = [row["all_s"] for row in found] or [0.0]
-    words = [
-        f"Commit {commits}, {platform.machine()}, Python {platform.python_version()},"
-        f" {date}; `python -m benchmarks.soak`.",
-        "",
-        "Every delivered trajectory was followed by conservative advancement on coal's",
-        "distances with pinocchio's kinematics; *floored* counts its steps that were",
-        "longer than the gap allowed, *queries* is their median a plan.  Broken:"
-        " collision,",
-        "less clearance than certified, a limit exceeded, another start or end."
-        f"  {len(dense)} were",
-        "sampled at 1e-3 rad as well"
-        + (f" (least gap {1e3 * _least(dense, 'dense_m'):.3g} mm)." if dense else "."),
-        f"CPU time of a plan, p50 / p95: {_times(spent)} ms.",
-        *_drift(found),
-    ]
-    return "\n".join(["# Soak", "", *words, "", _markdown(header, body)])
-
-
-def _drift(found: list[dict[str, Any]]) -> list[str]:
-    """Memory and time of each process, its first quarter beside its last."""
-    told = ["", "Drift, first quarter of a process's plans to its last:", ""]
-    runs = dict.fromkeys((row["commit"], row["job"]) for row in found if "job" in row)
-    for run in runs:
-        mine = [row for row in found if (row["commit"], row.get("job")) == run]
-        part = max(1, len(mine) // 4)
-        ends = (mine[:part], mine[-part:])
-        memory = [np.median([row["memory_mb"] for row in rows]) for rows in ends]
-        cpu = [np.median([1e3 * row["all_s"] for row in rows]) for rows in ends]
-        told.append(
-            f"- {run[0]}, process {run[1]}, {len(mine)} plans: {memory[0]:.0f} to"
-            f" {memory[1]:.0f} MB, CPU p50 {cpu[0]:.1f} to {cpu[1]:.1f} ms."
-        )
-    return told if len(told) > 3 else []
-
-
-def _line(name: str, mine: list[dict[str, Any]]) -> tuple[str, ...]:
-    solved = sum(row["status"] == "solved" for row in mine)
-    low, high = wilson(solved, len(mine))
-    others = Counter(row["status"] for row in mine if row["status"] != "solved")
-    walked = [row for row in mine if "least_m" in row]
-    broken = Counter(itertools.chain.from_iterable(row["broken"] for row in mine))
-    queries = np.median([row["queries"] for row in walked]) if walked else 0
-    return (
-        name,
-        str(len(mine)),
-        str(solved),
-        f"{low:.4f} to {high:.4f}",
-        ", ".join(f"{v} {k}" for k, v in sorted(others.items())) or "none",
-        f"{1e3 * _least(walked, 'least_m'):.2g}",
-        f"{queries:.0f}",
-        str(sum(row["floored"] for row in walked)),
-        ", ".join(f"{v} {k}" for k, v in sorted(broken.items())) or "0",
-    )
-
-
-def _least(found: list[dict[str, Any]], key: str) -> float:
-    return min((row[key] for row in found), default=float("nan"))
-
-
-def _times(seconds: list[float]) -> str:
-    p50, p95 = np.percentile(1e3 * np.array(seconds), [50, 95])
-    return f"{p50:.1f} / {p95:.1f}"
-
-
-def _markdown(header: Sequence[str], body: Sequence[Sequence[str]]) -> str:
-    lines = [header, ["---"] * len(header), *body]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
-
-
 def _commit() -> str:
     words = ["git", "rev-parse", "--short", "HEAD"]
     here = Path(__file__).parent
     done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=here)
     return done.stdout.strip() or "unknown"
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -13,7 +13,7 @@ from rrnn_opt.scene.library import SCENARIOS, scenario
 from rrnn_opt.validation.studies.arms import arm
 from rrnn_opt.validation.studies.clutter import scenes
 
-MBM = Path(__file__).parents[1] / "tests" / "data" / "mbm"
+MBM = Path(__file__).parents[2] / "tests" / "data" / "mbm"
 BUILTIN = ("pa10", "panda")
 URDF = ("kinova", "xarm7", "baxter, both arms")
 Maker = Callable[[int], Problem]

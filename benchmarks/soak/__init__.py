@@ -1,0 +1,1 @@
+"""Plans without end, each delivered motion followed by foreign distances."""
