@@ -1,1 +1,1 @@
-"""Ratios against peers, each pair measured in one run: ``python -m benchmarks``."""
+"""A command each folder or file: ``python -m benchmarks[.NAME]``."""

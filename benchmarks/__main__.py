@@ -1,4 +1,4 @@
-"""Run all benchmarks, or those that are named: python -m benchmarks [NAME ...]."""
+"""Measure all of ``ratios``, or those named: python -m benchmarks [NAME ...]."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def main() -> int:
 def measure(name: str) -> bool:
     """Run one benchmark, write its files and print its table."""
     try:
-        module = importlib.import_module(f"benchmarks.{name}")
+        module = importlib.import_module(f"benchmarks.ratios.{name}")
         benchmark = Benchmark(name, (module.__doc__ or "").strip())
         module.run(benchmark)
     except ImportError as error:

@@ -1,6 +1,6 @@
 """Time to find a certificate and to check it, one claim an engine.
 
-``python benchmarks/engines.py`` prints a Markdown table; wall time, the best of
+``python -m benchmarks.engines`` prints a Markdown table; wall time, the best of
 three, with the processes that the engines start.
 """
 

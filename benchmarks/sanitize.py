@@ -156,7 +156,9 @@ def _first(words: Sequence[str]) -> str:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Test the rooms; 1 when a test failed or a sanitizer found anything."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(
+        "python -m benchmarks.sanitize", description=__doc__
+    )
     parser.add_argument("rooms", nargs="*", default=list(ROOMS))
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--slow", action="store_true", help="slow tests as well")

@@ -6,7 +6,7 @@ import pinocchio as pin
 import pytest
 
 import rrnn_opt as rr
-from benchmarks.kinematics import pinocchio_model
+from benchmarks.ratios.kinematics import pinocchio_model
 from rrnn_opt import emit
 from rrnn_opt.emit.lanes import PORTABLE, WIDTHS, lanes_source
 from rrnn_opt.errors import (

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from benchmarks.interval_soundness import batch
+from benchmarks.interval_soundness.run import batch
 from rrnn_opt.errors import ShapeError, UnsupportedOperationError
 from rrnn_opt.verification.engines.interval.kernel import IntervalKernel
 

@@ -10,7 +10,7 @@ from rrnn_opt.check import check_plan
 from rrnn_opt.planning import Problem, plan
 from rrnn_opt.scene.library import SCENARIOS, scenario
 
-MBM = sorted((Path(__file__).parent / "data" / "mbm").glob("*.json"))
+MBM = sorted((Path(__file__).parents[1] / "data" / "mbm").glob("*.json"))
 
 
 def keeps_clear(document):

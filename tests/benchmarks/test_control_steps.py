@@ -2,7 +2,9 @@
 
 import pytest
 
-from benchmarks.control_steps import NETWORKS, ROBOTS, SCHEMES, Case, cases, report, run
+from benchmarks.control_steps.cases import NETWORKS, ROBOTS, SCHEMES, Case, cases
+from benchmarks.control_steps.run import run
+from benchmarks.control_steps.table import report
 
 
 def judged(row, steps):

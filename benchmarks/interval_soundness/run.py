@@ -1,57 +1,22 @@
-"""Random graphs, boxes and points: no value may lie outside its enclosure.
-
-``python -m benchmarks.interval_soundness [--cases N]`` goes on from the number
-of cases in ``results/interval_soundness.json``.  A case is one random graph
-over one random box: its natural and mean-value enclosures by the compiled
-kernel, the enclosures of the checker, and the value at a few points of the box
-in ball arithmetic of 200 bits, which must overlap every one of them.
-"""
+"""A batch of random graphs over random boxes, and the values outside."""
 
 from __future__ import annotations
-
-import argparse
-import json
-import sys
-import time
-from pathlib import Path
 
 import casadi as ca
 import flint
 import numpy as np
 
-from benchmarks.interval_graphs import random_box, random_graph
+from benchmarks.interval_soundness.graphs import random_box, random_graph
 from rrnn_opt.check.arithmetic import ball_intervals, intervals
 from rrnn_opt.check.claims.document import ClaimGraph, read_claim
 from rrnn_opt.check.claims.graph import boxes
 from rrnn_opt.claim import Claim, Relation
 from rrnn_opt.errors import UnsupportedOperationError
-from rrnn_opt.report import write_text
 from rrnn_opt.symbolic import Symbol
-from rrnn_opt.validation.ending import ended
 from rrnn_opt.verification.document import claim_block
 from rrnn_opt.verification.engines.interval.forms import Forms
 
-RESULT = Path(__file__).parent / "results" / "interval_soundness.json"
 INPUTS, GRAPHS, BOXES = 3, 10, 100
-CASES = GRAPHS * BOXES
-
-
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cases", type=int, default=100_000)
-    wanted = parser.parse_args().cases
-    known = json.loads(RESULT.read_text()) if RESULT.exists() else {}
-    cases, outside = known.get("cases", 0), known.get("outside", 0)
-    bounded, seconds = known.get("bounded", 0), known.get("cpu_s", 0.0)
-    while cases < wanted:
-        begin = time.process_time()
-        found = batch(cases // CASES)
-        cases, outside = cases + CASES, outside + found[0]
-        bounded, seconds = bounded + found[1], seconds + time.process_time() - begin
-        row = {"cases": cases, "outside": outside, "bounded": bounded, "cpu_s": seconds}
-        write_text(RESULT, json.dumps(row, indent=1) + "\n")
-    print(RESULT.read_text())
-    return 1 if outside else 0
 
 
 def batch(seed: int, graphs: int = GRAPHS, count: int = BOXES) -> tuple[int, int]:
@@ -125,7 +90,3 @@ def _in_checker(
     value = known[last] if last is not None else intervals.constant(0.0)
     a, b = float(intervals.lower(value)[0]), float(intervals.upper(value)[0])
     return not (a > high or b < low)
-
-
-if __name__ == "__main__":
-    sys.exit(ended(main))

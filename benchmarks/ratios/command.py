@@ -26,7 +26,7 @@ import numpy as np
 
 import rrnn_opt as rr
 from benchmarks.record import Benchmark, Row
-from benchmarks.search import cases
+from benchmarks.search.cases import cases
 from rrnn_opt.planning import Problem
 from rrnn_opt.planning.search.library import Search
 

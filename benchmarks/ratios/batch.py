@@ -17,7 +17,7 @@ import casadi as ca
 import numpy as np
 
 import rrnn_opt as rr
-from benchmarks.kinematics import Peer, peer
+from benchmarks.ratios.kinematics import Peer, peer
 from benchmarks.record import Benchmark, Row
 from rrnn_opt import emit
 from rrnn_opt.errors import RrnnError

@@ -12,27 +12,19 @@ measured before on a machine of the same kind; this command does not run it.
 from __future__ import annotations
 
 import argparse
-import json
-import pathlib
 import sys
 import time
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 
 import rrnn_opt as rr
-from benchmarks.clutter import scenes
 from benchmarks.record import surroundings
-from rrnn_opt.planning import Problem, RandomRnn
-from rrnn_opt.planning.search.cache import runtime_of
-from rrnn_opt.planning.search.library import Search
-from rrnn_opt.planning.search.request import pack
+from benchmarks.search.cases import cases
+from benchmarks.search.run import Found, searched
+from rrnn_opt.planning import Problem
 from rrnn_opt.validation.ending import ended
-from rrnn_opt.validation.tables.starts import start_problem
 
-DATA = pathlib.Path(__file__).parent / "data" / "mbm_panda.json"
 VAMP = {
     "small": (0.043, 0.558),
     "tall": (0.042, 0.147),
@@ -41,72 +33,6 @@ VAMP = {
     "under_pick": (0.066, 0.140),
 }
 """p50 and p95 of its search over all 100 problems of a family, ms."""
-REPEATS, BUDGET, LIMIT_S = 5, 20_000, 10.0
-
-
-@dataclass(frozen=True)
-class Found:
-    """One search: did it end well, and what it took."""
-
-    status: str
-    ms: float
-    explorations: int
-    steps: int
-
-
-def searched(problem: Problem, seed: int) -> Found:
-    """Least CPU time of some runs of one search; all runs do the same."""
-    joints = tuple(g.joints for g in problem.goals if hasattr(g, "joints"))
-    tips = tuple(g for g in problem.goals if not hasattr(g, "joints"))
-    settings, least = RandomRnn(), np.inf
-    packed = pack(problem, joints, tips, seed)
-    runtime = runtime_of(problem.robot, settings.cell)
-    for _ in range(REPEATS):
-        with Search(runtime, settings, packed.struct, packed.keep) as search:
-            begin, status = time.thread_time(), "paused"
-            while status == "paused":
-                status = search.run(BUDGET, LIMIT_S)
-            least = min(least, 1e3 * (time.thread_time() - begin))
-            counts = search.counts()
-    total = counts.random + counts.heuristic
-    return Found(status, least, total, counts.rollout_steps)
-
-
-def _quaternion(matrix: Sequence[Sequence[float]]) -> list[float]:
-    from scipy.spatial.transform import Rotation
-
-    return [float(x) for x in Rotation.from_matrix(np.array(matrix)[:3, :3]).as_quat()]
-
-
-def document(problem: dict[str, Any], goal: str) -> dict[str, Any]:
-    """A problem of the data file with its joint, position or pose goal."""
-    goals: dict[str, dict[str, Any]] = {
-        "joints": {"joints": problem["goal"]},
-        "position": {"position": problem["goal_position"], "tolerance": 1e-3},
-    }
-    pose = {"quat_xyzw": _quaternion(problem["goal_pose"]), "angle_tolerance": 5e-3}
-    goals["pose"] = goals["position"] | pose
-    return {
-        "robot": "panda",
-        "start": problem["start"],
-        "goal": goals[goal],
-        "obstacles": problem["obstacles"],
-    }
-
-
-def cases(
-    starts: int, seeds: int
-) -> Iterator[tuple[str, str, list[tuple[dict[str, Any], int]]]]:
-    """Family, goal, and its problem documents with their seeds."""
-    for name in ("plane", "window"):
-        yield name, "position", [(start_problem(name, i), i) for i in range(starts)]
-    families = json.loads(DATA.read_text(encoding="utf-8"))["problems"]
-    for goal in ("joints", "position", "pose"):
-        for family, problems in families.items():
-            documents = [document(p, goal) for p in problems]
-            yield family, goal, [(d, s) for d in documents for s in range(seeds)]
-    for kind in ("cage", "shelf"):
-        yield kind, "position", [(d, 0) for d in scenes(kind, 20 * seeds)]
 
 
 def _row(family: str, goal: str, found: list[Found]) -> str:

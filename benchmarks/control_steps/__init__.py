@@ -1,0 +1,1 @@
+"""Generated controllers under any requests, their monitor on."""

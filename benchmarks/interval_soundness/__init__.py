@@ -1,0 +1,1 @@
+"""Random graphs over random boxes: no value outside its enclosure."""

@@ -1,0 +1,1 @@
+"""What ``python -m benchmarks`` measures: ratios, both sides in one run."""

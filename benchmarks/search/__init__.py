@@ -1,0 +1,1 @@
+"""The planner's search, family by family."""
