@@ -11,12 +11,6 @@ from benchmarks.__main__ import NAMES
 ROOT = Path(__file__).parents[2]
 QUOTED = re.compile(r"-m (benchmarks(?:\.\w+)*)(?: ([a-z]\w*))?")
 PLACES = ("*.md", "Makefile", "docs/**/*.md", "benchmarks/**/*.py")
-    "*.md",
-    "Makefile",
-    "docs/**/*.md",
-    "benchmarks/**/*.py",
-    "benchmarks/**/*.md",
-)
 
 
 def quoted():
