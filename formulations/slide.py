@@ -34,7 +34,7 @@ from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.robot import Kinematics
-from rrnn_opt.robot.robot import PRISMATIC, JointTree
+from rrnn_opt.robot.tree import PRISMATIC, JointTree
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.symbolic.linear import cholesky_solve
 

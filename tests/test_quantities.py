@@ -154,7 +154,7 @@ def test_a_dropped_word_is_found(before, after, finds):
             "        velocity: largest speed, (nv,), rad/s or m/s",
             unitless,
         ),
-        ("simulation.task", "        dt: control period, s.", unitless),
+        ("simulation.task_parts", "        dt: control period, s.", unitless),
         ("scene.shapes", "        size: full edge lengths, (3,), m.", shapeless),
     ],
 )

@@ -207,7 +207,7 @@ def _cloud(rng: random.Random, suffix: str) -> bytes:
 
 def task(rng: random.Random, folder: Path) -> str:
     """A TASK.toml."""
-    from rrnn_opt.simulation import load_task
+    from rrnn_opt.simulation import Task
 
     text = bases.TASK
     for _ in range(rng.choice((1, 1, 2))):
@@ -225,7 +225,7 @@ def task(rng: random.Random, folder: Path) -> str:
     data = text.encode("utf-8", "surrogatepass")
     path = folder / "task.toml"
     path.write_bytes(mutation.raw(rng, data) if rng.random() < 0.1 else data)
-    found = load_task(path)
+    found = Task.load(path)
     require(found.control.dt > 0 and found.curve.duration > 0, "no time")
     require(np.all(np.isfinite(found.q0)), "q0 is not finite")
     require(1 <= found.steps <= 10_000_000, "too many steps")

@@ -45,10 +45,9 @@ def run(args: argparse.Namespace, out: Output) -> int:
     scheme, robot = named.scheme(args.formulation), named.robot(args.robot)
     network = named.network(args.network) if args.network else None
     from rrnn_opt.report import table
-    from rrnn_opt.simulation import simulate
-    from rrnn_opt.simulation.task_file import load_task
+    from rrnn_opt.simulation import Task, simulate
 
-    task = load_task(args.task)
+    task = Task.load(args.task)
     noise = task.noise
     if args.noise is not None:
         noise = replace(noise, sigma=args.noise)

@@ -20,8 +20,8 @@ import numpy as np
 from rrnn_opt.robot.bound import joint_range
 from rrnn_opt.robot.geometry import Gap, Geometry
 from rrnn_opt.robot.kinematics import Kinematics
-from rrnn_opt.robot.robot import PRISMATIC, Robot
-from rrnn_opt.robot.tree import Array
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import PRISMATIC, Array
 
 MOST_BOXES = 4000
 

@@ -17,8 +17,8 @@ import numpy as np
 
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.cover import Cover, cover_box, cover_cylinder
+from rrnn_opt.robot.data import RobotData
 from rrnn_opt.robot.placement import apply, compose, shift, turn
-from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.sphere_file import checked_pairs, placed_spheres, read_sphere_file
 from rrnn_opt.robot.tree import Array
 from rrnn_opt.robot.urdf import Urdf
@@ -27,7 +27,9 @@ from rrnn_opt.robot.urdf_shapes import Primitive
 INFLATION = 0.01  # m, wanted of the covers of cylinders' sides and boxes
 
 
-def collision_body(robot: Robot, urdf: Urdf, spheres: str | Path | None) -> Robot:
+def collision_body(
+    robot: RobotData, urdf: Urdf, spheres: str | Path | None
+) -> RobotData:
     """The robot with its collision spheres and self pairs.
 
     Args:
@@ -64,7 +66,7 @@ def collision_body(robot: Robot, urdf: Urdf, spheres: str | Path | None) -> Robo
     )
 
 
-def _from_file(robot: Robot, urdf: Urdf, spheres: str | Path) -> Robot:
+def _from_file(robot: RobotData, urdf: Urdf, spheres: str | Path) -> RobotData:
     file = read_sphere_file(spheres)
     frames = {frame.name: frame for frame in robot.frames}
     unknown = [

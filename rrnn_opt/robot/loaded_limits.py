@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.data import RobotData
 from rrnn_opt.robot.tree import (
     CONTINUOUS,
     PRISMATIC,
@@ -59,7 +59,7 @@ def _credible(velocity: float) -> bool:
     return 0.0 < velocity <= VELOCITY_CREDIBLE
 
 
-def assumed(model: Any, robot: Robot) -> str:
+def assumed(model: Any, robot: RobotData) -> str:
     """Which limits of a robot's joints are defaults of ours, as a sentence."""
     indices = {name: model.getJointId(name) for name in robot.joint_names}
     speeds = {n: model.velocityLimit[model.joints[i].idx_v] for n, i in indices.items()}

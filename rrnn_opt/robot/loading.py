@@ -20,9 +20,9 @@ import numpy as np
 from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.body import collision_body
+from rrnn_opt.robot.data import RobotData
 from rrnn_opt.robot.loaded_limits import assumed, stated_limits
 from rrnn_opt.robot.restrict import restrict
-from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.tree import (
     BASE,
     CONTINUOUS,
@@ -68,7 +68,7 @@ def from_urdf(
     tips: Sequence[str] = (),
     spheres: str | Path | None = None,
     locked: Mapping[str, float] | None = None,
-) -> Robot:
+) -> RobotData:
     """The joints of a URDF between its root and the link ``tip``, or ``tips``.
 
     All other joints stand at their ``locked`` value (default 0) and their links
@@ -102,7 +102,7 @@ def from_urdf(
     return collision_body(named, urdf, spheres)
 
 
-def from_pinocchio(model: Any, *, tip: str | None = None) -> Robot:
+def from_pinocchio(model: Any, *, tip: str | None = None) -> RobotData:
     """All joints of a ``pin.Model`` as a tree; no attribute is hung on it.
 
     Args:
@@ -122,7 +122,7 @@ def from_pinocchio(model: Any, *, tip: str | None = None) -> Robot:
 
 
 def _ends(
-    whole: Robot,
+    whole: RobotData,
     urdf: Urdf,
     held: Mapping[str, float],
     tip: str | None,
@@ -135,7 +135,7 @@ def _ends(
     return (_default_tip(whole, urdf, held) if tip is None else tip,)
 
 
-def _default_tip(whole: Robot, urdf: Urdf, held: Mapping[str, float]) -> str:
+def _default_tip(whole: RobotData, urdf: Urdf, held: Mapping[str, float]) -> str:
     """The last leaf with a joint on the way that is neither held nor mimics."""
     led = {*held, *urdf.mimic}
     for leaf in reversed(urdf.leaves):
@@ -157,7 +157,7 @@ def _model(urdf: Urdf) -> Any:
             raise RobotError(urdf.path, f"pinocchio refuses it: {reason}") from None
 
 
-def _whole(model: Any, source: str) -> Robot:
+def _whole(model: Any, source: str) -> RobotData:
     """Every joint of a model as a coordinate of its own."""
     joints = [_joint(model, k, source) for k in range(1, model.njoints)]
     types = tuple(kind for kind, _ in joints)
@@ -170,7 +170,7 @@ def _whole(model: Any, source: str) -> Robot:
     poses = [pose.homogeneous for pose in placements]
     if not all(np.all(np.isfinite(pose)) for pose in poses):
         raise RobotError(source, "a joint's origin is not finite")
-    return Robot(
+    return RobotData(
         name=str(model.name),
         joint_names=tuple(model.names)[1:],
         tree=JointTree(

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import casadi as ca
 
-from rrnn_opt.robot.robot import PRISMATIC, JointTree
+from rrnn_opt.robot.tree import PRISMATIC, JointTree
 
 
 def joint_increments(tree: JointTree, u: ca.SX) -> list[ca.SX]:

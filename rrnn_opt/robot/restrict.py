@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rrnn_opt.errors import RobotError
-from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.data import RobotData
 from rrnn_opt.robot.tree import (
     BASE,
     PRISMATIC,
@@ -44,12 +44,12 @@ def axis_motion(kind: str, axis: Array, value: float) -> Array:
 
 
 def restrict(
-    whole: Robot,
+    whole: RobotData,
     *,
     tips: Sequence[str],
     locked: Mapping[str, float],
     mimic: Mapping[str, Mimic],
-) -> Robot:
+) -> RobotData:
     """The robot whose coordinates are the joints between the base and ``tips``.
 
     They come in the order of the tips, each tip's from the base outwards; a
@@ -94,7 +94,7 @@ def restrict(
     )
 
 
-def _check_locked(whole: Robot, locked: Mapping[str, float]) -> None:
+def _check_locked(whole: RobotData, locked: Mapping[str, float]) -> None:
     for name, value in locked.items():
         if name not in whole.joint_names:
             known = ", ".join(whole.joint_names)
@@ -104,7 +104,7 @@ def _check_locked(whole: Robot, locked: Mapping[str, float]) -> None:
 
 
 def _drive(
-    whole: Robot,
+    whole: RobotData,
     name: str,
     moving: Iterable[str],
     locked: Mapping[str, float],
@@ -146,7 +146,7 @@ def _carriers(
 
 
 def _tree(
-    whole: Robot,
+    whole: RobotData,
     moving: list[str],
     drives: Mapping[str, _Drive],
     carriers: Mapping[int, Carrier],
@@ -167,7 +167,7 @@ def _tree(
     )
 
 
-def _limits(whole: Robot, indices: list[int]) -> Limits:
+def _limits(whole: RobotData, indices: list[int]) -> Limits:
     old, n = whole.limits, len(indices)
     for i in indices:
         if not old.lower[i] < old.upper[i]:

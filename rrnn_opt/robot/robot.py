@@ -1,112 +1,41 @@
-"""The robot as frozen arrays, and the ways to get one."""
+"""The robot, and the ways to get one: built in, from a URDF, from plain data."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from rrnn_opt.arguments import checked
-from rrnn_opt.errors import RobotError
-from rrnn_opt.robot.tree import (
-    BASE,
-    CONTINUOUS,
-    JOINT_TYPES,
-    PRISMATIC,
-    REVOLUTE,
-    Array,
-    Frame,
-    JointTree,
-    Limits,
-    Sphere,
-    frozen,
-)
-
-__all__ = [
-    "BASE",
-    "CONTINUOUS",
-    "JOINT_TYPES",
-    "PRISMATIC",
-    "REVOLUTE",
-    "Array",
-    "Frame",
-    "JointTree",
-    "Limits",
-    "Robot",
-    "Sphere",
-    "frozen",
-]
+from rrnn_opt.robot.builtin import builtin
+from rrnn_opt.robot.data import RobotData
+from rrnn_opt.robot.serial import robot_from_dict, robot_to_dict
 
 
 @checked()
 @dataclass(frozen=True, eq=False)
-class Robot:
+class Robot(RobotData):
     """A robot arm as data; coordinates are plain joint angles (or metres).
 
-    Attributes:
-        name: e.g. "pa10".
-        joint_names: one a coordinate, nv of them.
-        tree: the joints.
-        limits: of the coordinates.
-        frames: named frames; the end effector is among them.
-        tip: name of the end-effector frame.
-        spheres: collision spheres.
-        self_pairs: pairs of links that are checked against each other.
-        cover: what the spheres stand for: {"inflation_m": (least, most)} of
-            covers, {"missing": [...]} links with geometry but no spheres.
-        source: where the numbers come from.
-        licence: licence of the description.
+    ``RobotData`` has its fields; built-in robots and loaders make those.
     """
-
-    name: str
-    joint_names: tuple[str, ...]
-    tree: JointTree
-    limits: Limits
-    frames: tuple[Frame, ...]
-    tip: str
-    spheres: tuple[Sphere, ...] = ()
-    self_pairs: tuple[tuple[str, str], ...] = ()
-    cover: dict[str, Any] = field(default_factory=dict)
-    source: str = ""
-    licence: str = ""
-
-    @property
-    def nv(self) -> int:
-        """Number of coordinates."""
-        return len(self.joint_names)
-
-    @checked()
-    def frame(self, name: str | None = None) -> Frame:
-        """The frame of that name; the tip when no name is given.
-
-        Args:
-            name: of a frame; None for the tip.
-
-        Raises:
-            RobotError: there is no such frame.
-        """
-        wanted = self.tip if name is None else name
-        for candidate in self.frames:
-            if candidate.name == wanted:
-                return candidate
-        known = ", ".join(f.name for f in self.frames[-12:])
-        raise RobotError(self.name, f"no frame '{wanted}'; it has {known}")
-
-    def sphere_pairs(self) -> list[tuple[int, int]]:
-        """Index pairs of spheres, one for every two spheres of a self pair."""
-        of: dict[str, list[int]] = {
-            link: [] for pair in self.self_pairs for link in pair
-        }
-        for index, sphere in enumerate(self.spheres):
-            of.setdefault(sphere.link, []).append(index)
-        return [(i, j) for a, b in self.self_pairs for i in of[a] for j in of[b]]
 
     def to_dict(self) -> dict[str, Any]:
         """The robot as JSON-ready data."""
-        from rrnn_opt.robot.serial import robot_to_dict
-
         return robot_to_dict(self)
+
+    @staticmethod
+    def from_dict(data: Mapping[str, Any]) -> Robot:
+        """The robot of such data; it knows no frame but its tip.
+
+        Args:
+            data: as from ``to_dict``.
+
+        Raises:
+            RobotError: an entry is missing or makes no sense.
+        """
+        return Robot(**vars(robot_from_dict(data)))
 
     @staticmethod
     def builtin(name: str) -> Robot:
@@ -115,9 +44,7 @@ class Robot:
         Raises:
             RobotError: no robot has that name.
         """
-        from rrnn_opt.robot.builtin import builtin
-
-        return builtin(name)
+        return Robot(**vars(builtin(name)))
 
     @staticmethod
     def from_urdf(
@@ -143,7 +70,8 @@ class Robot:
         """
         from rrnn_opt.robot.loading import from_urdf
 
-        return from_urdf(path, tip=tip, tips=tips, spheres=spheres, locked=locked)
+        data = from_urdf(path, tip=tip, tips=tips, spheres=spheres, locked=locked)
+        return Robot(**vars(data))
 
     @staticmethod
     def from_pinocchio(model: Any, *, tip: str | None = None) -> Robot:
@@ -158,4 +86,4 @@ class Robot:
         """
         from rrnn_opt.robot.loading import from_pinocchio
 
-        return from_pinocchio(model, tip=tip)
+        return Robot(**vars(from_pinocchio(model, tip=tip)))

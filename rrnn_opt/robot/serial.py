@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.errors import RobotError, ShapeError
-from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.data import RobotData
 from rrnn_opt.robot.tree import (
     JOINT_TYPES,
     Array,
@@ -30,7 +30,7 @@ def _numbers_or_null(values: Array) -> list[float | None]:
     return [float(v) if np.isfinite(v) else None for v in values]
 
 
-def robot_to_dict(robot: Robot) -> dict[str, Any]:
+def robot_to_dict(robot: RobotData) -> dict[str, Any]:
     """The robot as JSON-ready data; infinite limits become null.
 
     Args:
@@ -77,7 +77,7 @@ def robot_to_dict(robot: Robot) -> dict[str, Any]:
     }
 
 
-def robot_from_dict(data: Mapping[str, Any]) -> Robot:
+def robot_from_dict(data: Mapping[str, Any]) -> RobotData:
     """The robot of such data; it knows no frame but its tip.
 
     Args:
@@ -98,7 +98,7 @@ def robot_from_dict(data: Mapping[str, Any]) -> Robot:
         raise RobotError(name, f"cannot be read from data: {error}") from None
 
 
-def _robot(name: str, data: Mapping[str, Any]) -> Robot:
+def _robot(name: str, data: Mapping[str, Any]) -> RobotData:
     names = tuple(str(joint) for joint in data["joint_names"])
     tree = _tree(data, len(names))
     tip = data["tip"]
@@ -107,7 +107,7 @@ def _robot(name: str, data: Mapping[str, Any]) -> Robot:
         _carrier(tip["joint"], tree.nj),
         frozen(tip["placement"], (4, 4), "tip.placement"),
     )
-    return Robot(
+    return RobotData(
         name=name,
         joint_names=names,
         tree=tree,

@@ -2,8 +2,8 @@
 
 from rrnn_opt.simulation.result import SimulationResult
 from rrnn_opt.simulation.simulate import simulate
-from rrnn_opt.simulation.task import Control, Curve, Noise, Task
-from rrnn_opt.simulation.task_file import load_task, task_from_dict
+from rrnn_opt.simulation.task import Task
+from rrnn_opt.simulation.task_parts import Control, Curve, Noise
 
 __all__ = [
     "Control",
@@ -11,7 +11,5 @@ __all__ = [
     "Noise",
     "SimulationResult",
     "Task",
-    "load_task",
     "simulate",
-    "task_from_dict",
 ]

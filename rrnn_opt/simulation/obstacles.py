@@ -9,7 +9,7 @@ import numpy as np
 
 from rrnn_opt.errors import ProblemError
 from rrnn_opt.robot import Kinematics, Robot
-from rrnn_opt.robot.robot import Array
+from rrnn_opt.robot.tree import Array
 from rrnn_opt.scene import PRIMITIVES, Scene
 
 FAR = 100.0

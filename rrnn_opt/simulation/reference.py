@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from rrnn_opt.errors import ProblemError
-from rrnn_opt.simulation.task import PLANES, Array, Curve
+from rrnn_opt.simulation.task_parts import PLANES, Array, Curve
 
 
 def reference(curve: Curve, tip: Array, t: Array) -> tuple[Array, Array, Array]:

@@ -12,7 +12,7 @@ from rrnn_opt.errors import DocumentError, ProblemError
 from rrnn_opt.files import read_text
 from rrnn_opt.scene.fields import not_negative, positive, record, text, vector
 from rrnn_opt.scene.reading import scene_from_list
-from rrnn_opt.simulation.task import (
+from rrnn_opt.simulation.task_parts import (
     ENTRANCES,
     KINDS,
     LAWS,
@@ -21,7 +21,6 @@ from rrnn_opt.simulation.task import (
     Control,
     Curve,
     Noise,
-    Task,
 )
 
 THROUGH_START = "start"
@@ -29,25 +28,23 @@ MOST_STEPS = 10_000_000
 """Largest number of control steps of one run: its record has to fit in memory."""
 
 
-def load_task(path: str | Path) -> Task:
-    """Read a TASK.toml.
+def read_toml(path: str | Path) -> dict[str, Any]:
+    """The document of a TOML file.
 
     Raises:
         DocumentError: the file cannot be read or is no TOML.
-        ProblemError: a field is missing, unknown or wrong; it is named.
     """
     text = read_text(path)
     try:
-        document = tomllib.loads(text)
+        return tomllib.loads(text)
     except RecursionError:
         raise DocumentError(str(path), "nested too deeply") from None
     except ValueError as error:  # no TOML, or a number of thousands of digits
         raise DocumentError(str(path), f"is not TOML: {error}") from error
-    return task_from_dict(document)
 
 
-def task_from_dict(document: Mapping[str, Any]) -> Task:
-    """The task of a parsed document.
+def task_fields(document: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of the task that a document describes, by name.
 
     Raises:
         ProblemError: a field is missing, unknown or wrong; it is named.
@@ -58,18 +55,15 @@ def task_from_dict(document: Mapping[str, Any]) -> Task:
     robot = record(parts["robot"], "robot", required=("q0",), optional=("frame",))
     q0 = robot["q0"]
     length = len(q0) if isinstance(q0, list | tuple) else 1
-    task = Task(
-        curve=_curve(parts["task"]),
-        q0=vector(q0, length, "robot.q0"),
-        frame=text(robot["frame"], "robot.frame") if "frame" in robot else None,
-        control=_control(parts.get("control", {})),
-        noise=_noise(parts.get("noise", {})),
-        **_scene(parts.get("scene", {})),
-    )
-    if not 1 <= task.steps <= MOST_STEPS:
+    curve, q0 = _curve(parts["task"]), vector(q0, length, "robot.q0")
+    frame = text(robot["frame"], "robot.frame") if "frame" in robot else None
+    control, noise = _control(parts.get("control", {})), _noise(parts.get("noise", {}))
+    fields = {"curve": curve, "q0": q0, "frame": frame, "control": control}
+    fields |= {"noise": noise, **_scene(parts.get("scene", {}))}
+    if not 1 <= round(curve.duration / control.dt) <= MOST_STEPS:
         message = f"must make 1 to {MOST_STEPS} control steps of control.dt"
         raise ProblemError("task.duration", message)
-    return task
+    return fields
 
 
 _FIELDS = {

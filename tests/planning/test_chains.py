@@ -6,7 +6,8 @@ import pytest
 import rrnn_opt as rr
 from rrnn_opt.planning import Problem
 from rrnn_opt.planning.problem.goals import JointGoal
-from rrnn_opt.robot.robot import Frame, JointTree, Limits, Robot, Sphere
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import Frame, JointTree, Limits, Sphere
 from rrnn_opt.scene import Scene
 from rrnn_opt.scene import Sphere as Ball
 

@@ -7,7 +7,6 @@ import pytest
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot import Robot
 from rrnn_opt.robot.builtin import BUILTIN
-from rrnn_opt.robot.serial import robot_from_dict
 
 KEYS = ["name", "parents", "placements", "axes", "types", "coupling"]
 KEYS += ["joint_names", "tip", "spheres", "self_pairs", "limits"]
@@ -17,7 +16,7 @@ KEYS += ["joint_names", "tip", "spheres", "self_pairs", "limits"]
 def test_data_survive_json_and_come_back(name):
     robot = Robot.builtin(name)
     text = json.dumps(robot.to_dict(), allow_nan=False)
-    again = robot_from_dict(json.loads(text))
+    again = Robot.from_dict(json.loads(text))
     assert list(again.to_dict()) == KEYS
     assert again.to_dict() == robot.to_dict()
     assert again.sphere_pairs() == robot.sphere_pairs()
@@ -27,13 +26,13 @@ def test_data_survive_json_and_come_back(name):
 def test_infinite_limits_are_null():
     data = Robot.builtin("planar3").to_dict()
     data["limits"]["lower"][1] = data["limits"]["upper"][1] = None
-    robot = robot_from_dict(data)
+    robot = Robot.from_dict(data)
     assert (robot.limits.lower[1], robot.limits.upper[1]) == (-np.inf, np.inf)
     assert robot.to_dict() == data
 
 
 def test_arrays_cannot_be_written():
-    robot = robot_from_dict(Robot.builtin("planar3").to_dict())
+    robot = Robot.from_dict(Robot.builtin("planar3").to_dict())
     for array in (robot.tree.parents, robot.tree.axes, robot.limits.lower):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 1
@@ -61,4 +60,4 @@ def test_broken_data_are_refused(message):
     data = copy.deepcopy(Robot.builtin("planar3").to_dict())
     BROKEN[message](data)
     with pytest.raises(RobotError, match=message):
-        robot_from_dict(data)
+        Robot.from_dict(data)

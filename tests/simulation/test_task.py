@@ -5,7 +5,6 @@ import pytest
 
 from rrnn_opt.errors import DocumentError, ProblemError
 from rrnn_opt.simulation import Task
-from rrnn_opt.simulation.task_file import task_from_dict
 
 TEXT = """
 [task]
@@ -59,7 +58,7 @@ def test_every_field_is_read(tmp_path):
 
 
 def test_defaults():
-    task = task_from_dict(DOCUMENT)
+    task = Task.from_dict(DOCUMENT)
     assert task.curve.duration == task.curve.period == 10.0
     assert (task.control.dt, task.control.law, task.noise.sigma) == (
         0.01,
@@ -70,7 +69,7 @@ def test_defaults():
 
 
 def test_noise_can_be_overridden():
-    task = task_from_dict(DOCUMENT).with_noise(0.3, seed=5)
+    task = Task.from_dict(DOCUMENT).with_noise(0.3, seed=5)
     assert (task.noise.sigma, task.noise.seed) == (0.3, 5)
     assert task.with_noise(0.4).noise.seed == 5
     with pytest.raises(ProblemError, match=r"noise\.sigma"):
@@ -123,14 +122,14 @@ def test_the_wrong_field_is_named(field, where, value):
     if value == 1e6:
         document["control"]["dt"] = 1e-3
     with pytest.raises(ProblemError) as caught:
-        task_from_dict(document)
+        Task.from_dict(document)
     assert caught.value.field == field
 
 
 def test_centre_and_through_exclude_one_another():
     entry = {"kind": "circle", "radius": 0.1, "centre": [0, 0, 0], "through": "start"}
     with pytest.raises(ProblemError, match="not both"):
-        task_from_dict(DOCUMENT | {"task": entry})
+        Task.from_dict(DOCUMENT | {"task": entry})
 
 
 @pytest.mark.parametrize("kind", ["line", "point"])
@@ -138,7 +137,7 @@ def test_centre_and_through_exclude_one_another():
 def test_a_line_needs_exactly_one_end(kind, given):
     entry = {"kind": kind} | {key: [0.1, 0.0, 0.0] for key in given}
     with pytest.raises(ProblemError, match="exactly one"):
-        task_from_dict(DOCUMENT | {"task": entry})
+        Task.from_dict(DOCUMENT | {"task": entry})
 
 
 def test_a_file_that_cannot_be_read(tmp_path):

@@ -22,6 +22,7 @@ from rrnn_opt.validation.reproduce.cell import (
 from rrnn_opt.validation.reproduce.figure_cells import fig3, fig4, fig5, raven
 from rrnn_opt.validation.tables import table_2, table_3, table_4
 from rrnn_opt.validation.tables.printed import printed, printed_values
+from rrnn_opt.validation.tables.table_2_rows import interval
 from rrnn_opt.validation.tables.tracking import ENTRIES, SIGMAS
 from rrnn_opt.validation.tables.trials import SCENARIOS
 
@@ -63,7 +64,7 @@ def table2(rows: Rows) -> Cells:
                 result.append(cell(*where, None, NOT, NO_ROWS, n=0))
                 continue
             errors = found[key][k]
-            ours, bounds = float(errors.mean()), table_2.interval(errors.mean(axis=0))
+            ours, bounds = float(errors.mean()), interval(errors.mean(axis=0))
             word = table_2.verdict(entry, paper, ours, bounds)
             reason = f"{entry.note}; noise, circles and start are of our choice"
             result.append(

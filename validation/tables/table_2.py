@@ -12,19 +12,19 @@ import argparse
 import json
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rrnn_opt.report import write_text
 from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.tables import tracking
 from rrnn_opt.validation.tables.cell import Cell, Verdict, judged
 from rrnn_opt.validation.tables.page import head, spelled
-from rrnn_opt.validation.tables.search import Trial, search
+from rrnn_opt.validation.tables.search import search
+from rrnn_opt.validation.tables.table_2_page import sections
+from rrnn_opt.validation.tables.table_2_rows import Result
 from rrnn_opt.validation.tables.tracking import (
     CIRCLES,
     ENTRIES,
@@ -33,53 +33,10 @@ from rrnn_opt.validation.tables.tracking import (
     Runner,
 )
 
-GOALS = (0.0005, 0.0015, 0.005)
-"""What we set out to reach at each sigma, m."""
-
 PRINTED = 0.0005
 """Half of the last digit that the paper prints, m: its 0.007 is 0.0065 to 0.0075."""
 
 PROGRAM = "python -m rrnn_opt.validation.tables.table_2"
-
-
-@dataclass(frozen=True, eq=False)
-class Result:
-    """One row of the table.
-
-    Attributes:
-        key: of ``ENTRIES``.
-        trials: of the search, best first.
-        errors: root mean square of each run, (sigmas, circles, seeds), m.
-        limits: share of the runs that kept the arm's limits, by sigma.
-        unsettled: share of the periods in which the network did not come to rest.
-    """
-
-    key: str
-    trials: Sequence[Trial]
-    errors: NDArray[np.float64]
-    limits: tuple[float, ...]
-    unsettled: float
-
-    @property
-    def means(self) -> NDArray[np.float64]:
-        """Mean over circles and seeds, by sigma, m."""
-        return np.asarray(self.errors.mean(axis=(1, 2)))
-
-    def interval(self, sigma: int) -> tuple[float, float]:
-        """95 % interval of the mean: a seed's mean over the circles is one sample."""
-        sample = self.errors[sigma].mean(axis=0)
-        return interval(sample)
-
-
-def interval(sample: NDArray[np.float64]) -> tuple[float, float]:
-    """Student's 95 % interval of a mean; the point itself for one sample."""
-    from scipy.stats import t
-
-    mean, n = float(sample.mean()), sample.size
-    if n < 2:
-        return mean, mean
-    half = float(t.ppf(0.975, n - 1) * sample.std(ddof=1) / np.sqrt(n))
-    return mean - half, mean + half
 
 
 def measure(key: str, *, seeds: int, points: int) -> Result:
@@ -167,26 +124,8 @@ def verdict(
     return "not reproduced" if rival and found == "better" else found
 
 
-def best(found: Sequence[Result], sigma: int) -> tuple[Result, Result, bool]:
-    """Our best row, the best rival or paper row, and whether the intervals part.
-
-    Args:
-        found: all rows.
-        sigma: index.
-    """
-
-    def least(ours: bool) -> Result:
-        chosen = [r for r in found if (ENTRIES[r.key].kind == "ours") == ours]
-        return min(chosen, key=lambda r: float(r.means[sigma]))
-
-    mine, other = least(True), least(False)
-    return mine, other, mine.interval(sigma)[1] < other.interval(sigma)[0]
-
-
 def page(found: Sequence[Result], command: str) -> str:
     """The table in Markdown."""
-    from rrnn_opt.validation.tables.table_2_page import sections
-
     about = (tracking.__doc__ or "").split("\n", 2)[2].strip()
     text = about.replace("``CIRCLES``", "the table of circles")
     return "\n\n".join([head("Table II", command), text, *sections(found)]) + "\n"

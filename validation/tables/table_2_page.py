@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rrnn_opt.validation.tables.cell import markdown
+from rrnn_opt.validation.tables.table_2_rows import GOALS, Result, best
 from rrnn_opt.validation.tables.tracking import CIRCLES, ENTRIES, SIGMAS
-
-if TYPE_CHECKING:
-    from rrnn_opt.validation.tables.table_2 import Result
 
 _COLUMNS = [f"sigma {s:g}" for s in SIGMAS]
 
@@ -52,8 +49,6 @@ def _many(row: Result) -> bool:
 
 
 def _verdicts(found: Sequence[Result]) -> Iterator[str]:
-    from rrnn_opt.validation.tables.table_2 import GOALS, best
-
     for i, sigma in enumerate(SIGMAS):
         mine, other, apart = best(found, i)
         low, high = mine.interval(i)

@@ -7,7 +7,7 @@ import casadi as ca
 from rrnn_opt.formulations.slide import joint_attraction, row, tip_attraction
 from rrnn_opt.planning.kernel.function import emitted_function
 from rrnn_opt.robot import Robot
-from rrnn_opt.robot.robot import JointTree
+from rrnn_opt.robot.tree import JointTree
 
 
 def tip_jacobian(

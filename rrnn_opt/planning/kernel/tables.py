@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.robot.bound import ancestor_mask, reach
-from rrnn_opt.robot.robot import BASE, PRISMATIC, Robot
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import BASE, PRISMATIC
 
 Array = NDArray[np.float64]
 LANES = 8

@@ -13,7 +13,8 @@ from rrnn_opt.planning.problem.problem import Problem
 from rrnn_opt.planning.search.library import Search
 from rrnn_opt.planning.search.structs import Contact
 from rrnn_opt.robot.bound import reach_ball
-from rrnn_opt.robot.robot import CONTINUOUS, Robot
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import CONTINUOUS
 
 Array = NDArray[np.float64]
 

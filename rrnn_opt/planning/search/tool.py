@@ -21,8 +21,7 @@ from numpy.typing import NDArray
 from rrnn_opt.planning.problem.goals import AXES, TipGoal
 from rrnn_opt.planning.problem.problem import Problem
 from rrnn_opt.planning.search.feasibility import Infeasible
-from rrnn_opt.robot.robot import Sphere
-from rrnn_opt.robot.tree import BASE
+from rrnn_opt.robot.tree import BASE, Sphere
 from rrnn_opt.scene.distance import distance_function
 from rrnn_opt.scene.records import HULL, SOLIDS, Records
 

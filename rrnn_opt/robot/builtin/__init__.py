@@ -6,7 +6,7 @@ import importlib
 
 from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RobotError
-from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.data import RobotData
 
 BUILTIN = ("pa10", "panda", "raven2", "planar3")
 
@@ -14,7 +14,7 @@ __all__ = ["BUILTIN", "builtin"]
 
 
 @checked()
-def builtin(name: str) -> Robot:
+def builtin(name: str) -> RobotData:
     """The built-in robot of that name.
 
     Args:
@@ -29,5 +29,5 @@ def builtin(name: str) -> Robot:
     if name not in BUILTIN:
         known = ", ".join(BUILTIN)
         raise RobotError(name, f"not a built-in robot; there are {known}")
-    robot: Robot = importlib.import_module(f"rrnn_opt.robot.builtin.{name}").robot()
+    robot: RobotData = importlib.import_module(f"rrnn_opt.robot.builtin.{name}").robot()
     return robot

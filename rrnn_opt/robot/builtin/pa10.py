@@ -13,8 +13,8 @@ import numpy as np
 
 from rrnn_opt.robot.builtin.parts import chain, frame, inflations, limits, spheres
 from rrnn_opt.robot.cover import cover_capsule
+from rrnn_opt.robot.data import RobotData
 from rrnn_opt.robot.placement import shift
-from rrnn_opt.robot.robot import Robot
 
 BASE_SHOULDER, UPPER_ARM, FOREARM, WRIST_FLANGE = 0.317, 0.45, 0.48, 0.07  # m
 JOINTS = ("S1", "S2", "S3", "E1", "E2", "W1", "W2")
@@ -40,7 +40,7 @@ SOURCE = (
 )
 
 
-def robot() -> Robot:
+def robot() -> RobotData:
     """The arm, its links as four capsules covered by spheres."""
     rise = (0.0, BASE_SHOULDER, 0.0, UPPER_ARM, 0.0, FOREARM, 0.0)
     turns = [(0, 0, 1), (0, 1, 0)] * 3 + [(0, 0, 1)]
@@ -49,7 +49,7 @@ def robot() -> Robot:
         for _, _, low, high, radius in CAPSULES
     ]
     bounds = np.radians(RANGE_DEG)
-    return Robot(
+    return RobotData(
         name="pa10",
         joint_names=JOINTS,
         tree=chain([shift(0.0, 0.0, z) for z in rise], turns),

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.robot.builtin.parts import chain, frame, limits
+from rrnn_opt.robot.data import RobotData
 from rrnn_opt.robot.placement import compose, shift, turn
-from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.sphere_file import SphereFile, checked_pairs, placed_spheres
 from rrnn_opt.robot.tree import Array, Frame
 
@@ -55,7 +55,7 @@ def _link_frames(joints: list[dict[str, Any]]) -> dict[str, Frame]:
     return frames
 
 
-def robot() -> Robot:
+def robot() -> RobotData:
     """The arm with 59 spheres and the tip 0.105 m beyond the hand."""
     folder = resources.files("rrnn_opt.robot.builtin") / "data"
     data = json.loads((folder / "panda_spheres.json").read_text(encoding="utf-8"))
@@ -63,7 +63,7 @@ def robot() -> Robot:
     frames = _link_frames(data["joints"])
     file = SphereFile.from_data(data)
     spheres = placed_spheres(file.links, frames)
-    return Robot(
+    return RobotData(
         name="panda",
         joint_names=tuple(joint["name"] for joint in moving),
         tree=chain([_placement(j) for j in moving], [j["axis"] for j in moving]),

@@ -6,8 +6,8 @@ import numpy as np
 
 from rrnn_opt.robot.builtin.parts import chain, frame, inflations, limits, spheres
 from rrnn_opt.robot.cover import Cover, cover_capsule
+from rrnn_opt.robot.data import RobotData
 from rrnn_opt.robot.placement import shift
-from rrnn_opt.robot.robot import Robot
 
 LENGTHS = (1.0, 0.8, 0.6)  # m
 RADIUS, SPHERE = 0.04, 0.05  # m: links as capsules, spheres that contain them
@@ -20,12 +20,12 @@ def _cover(length: float) -> Cover:
     return Cover(cover.centers, SPHERE, SPHERE - RADIUS)
 
 
-def robot() -> Robot:
+def robot() -> RobotData:
     """Links of 1.0, 0.8 and 0.6 m along x that turn about z."""
     covers = [_cover(length) for length in LENGTHS]
     ends = [shift(length, 0.0, 0.0) for length in LENGTHS]
     names = ("link1", "link2", "link3")
-    return Robot(
+    return RobotData(
         name="planar3",
         joint_names=("joint1", "joint2", "joint3"),
         tree=chain([np.eye(4), *ends[:2]], [(0, 0, 1)] * 3),

@@ -13,8 +13,8 @@ import numpy as np
 
 from rrnn_opt.robot.builtin.parts import chain, frame, inflations, limits, spheres
 from rrnn_opt.robot.cover import cover_capsule
+from rrnn_opt.robot.data import RobotData
 from rrnn_opt.robot.placement import compose, shift, turn
-from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.tree import PRISMATIC, REVOLUTE, Array
 
 SHAFT, WRIST = 0.47, 0.013  # m: -d4, and from the wrist to the grasper's axis
@@ -52,13 +52,13 @@ def _bounds(degrees: tuple[float, ...], insertion: float) -> list[float]:
     return values
 
 
-def robot() -> Robot:
+def robot() -> RobotData:
     """The left arm; its instrument's shaft and wrist as covered capsules."""
     kinds = [REVOLUTE] * 6
     kinds[2] = PRISMATIC
     shaft = cover_capsule((0, 0, 0), (0, 0, -SHAFT), radius=RADIUS, inflation=2.5e-3)
     wrist = cover_capsule((0, 0, 0), (WRIST, 0, 0), radius=RADIUS, inflation=2.5e-3)
-    return Robot(
+    return RobotData(
         name="raven2",
         joint_names=JOINTS,
         tree=chain([_placement(*row) for row in DH], [(0, 0, 1)] * 6, kinds),

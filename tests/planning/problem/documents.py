@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from rrnn_opt.robot.robot import Frame, JointTree, Limits, Robot, Sphere
+from rrnn_opt.robot.robot import Robot
+from rrnn_opt.robot.tree import Frame, JointTree, Limits, Sphere
 
 
 def valid():

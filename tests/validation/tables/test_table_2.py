@@ -6,7 +6,8 @@ import pytest
 
 from rrnn_opt.validation.tables import table_2
 from rrnn_opt.validation.tables.search import FIRST_SEED, search
-from rrnn_opt.validation.tables.table_2 import Result, best, cells, interval, page
+from rrnn_opt.validation.tables.table_2 import cells, page
+from rrnn_opt.validation.tables.table_2_rows import Result, best, interval
 from rrnn_opt.validation.tables.tracking import CIRCLES, ENTRIES, SIGMAS, Runner, task
 
 
