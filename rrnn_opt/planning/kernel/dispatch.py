@@ -126,6 +126,15 @@ static void k_pair_squares(const double *restrict from, const double *restrict p
     }}
 }}
 
+/* Right-hand sides of the rows of a block. */
+static void k_block_offset(const double *restrict gap, double margin,
+                           const double *restrict bound, double *restrict right)
+{{
+    {lanes} {{
+        k_offset(gap + l, &margin, bound + l, right + l);
+    }}
+}}
+
 /* Velocities J u of a block of centres, and the motion bounds B(u). */
 static void k_block_motion(const double *restrict axes, const double *restrict origins,
                            const double *restrict p, const double *restrict reaches,

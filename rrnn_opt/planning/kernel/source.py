@@ -66,15 +66,13 @@ def frames_function(kin: Kinematics) -> ca.Function:
 
 
 def row_functions(robot: Robot) -> list[ca.Function]:
-    """Contact row, its right-hand side, and the step's box."""
+    """Contact row, and the step's box."""
     tree, nj, nv = robot.tree, robot.tree.nj, robot.nv
     axes, origins = ca.SX.sym("axes", 3, nj), ca.SX.sym("origins", 3, nj)
     mask = ca.SX.sym("mask", nj)
     point, n = ca.SX.sym("point", 3), ca.SX.sym("n", 3)
     q, low, high = (ca.SX.sym(name, nv) for name in ("q", "lower", "upper"))
-    gap, margin, bound, radius = (
-        ca.SX.sym(name) for name in ("gap", "margin", "bound", "radius")
-    )
+    radius = ca.SX.sym("radius")
     lower, upper = step_box(q, low, high, radius)
     frame = {"axes": axes, "origins": origins}
     return [
@@ -84,16 +82,21 @@ def row_functions(robot: Robot) -> list[ca.Function]:
             {"row": row(tree, axes, origins, mask, point, n)},
         ),
         emitted_function(
-            "k_offset",
-            {"gap": gap, "margin": margin, "bound": bound},
-            {"right": offset(gap, margin, bound)},
-        ),
-        emitted_function(
             "k_box",
             {"q": q, "lower": low, "upper": high, "radius": radius},
             {"least": lower, "most": upper},
         ),
     ]
+
+
+def offset_function() -> ca.Function:
+    """Right-hand side of a contact row: ``gap, margin, bound -> right``."""
+    gap, margin, bound = (ca.SX.sym(name) for name in ("gap", "margin", "bound"))
+    return emitted_function(
+        "k_offset",
+        {"gap": gap, "margin": margin, "bound": bound},
+        {"right": offset(gap, margin, bound)},
+    )
 
 
 def motion_functions(robot: Robot) -> list[ca.Function]:
@@ -161,7 +164,8 @@ def emitted(robot: Robot, cell: MemoryCell) -> str:
         *drive_functions(robot),
         *cell_functions(cell),
     ]
-    lanes = [*motion_functions(robot), *pair_functions(), bounds_function()]
+    lanes = [*motion_functions(robot), *pair_functions()]
+    lanes += [bounds_function(), offset_function()]
     named = [(f, f.name()) for f in lanes]
     named += [(distance_function(kind), f"k_distance_{kind}") for kind in PRIMITIVES]
     named += [(gap_function(kind), f"k_gap_{kind}") for kind in PRIMITIVES]

@@ -110,14 +110,16 @@ static int world_pairs(world_t *world, const pose_t *pose, int32_t c, double rad
 /* Adds what the centres went since they were last seen. */
 static void world_place(world_t *world, const pose_t *pose)
 {
-    double farthest = 0.0;
+    double square[LANES], greatest[NB], farthest = 0.0;
     for (int32_t b = 0; b < NB && world->placed; b++) {
-        double square[LANES], greatest, longest;
         k_block_squares(world->seen + LANES * b, pose->centers + LANES * b, square);
-        greatest = greatest_of(square);
-        k_sqrt(&greatest, &longest);
+        greatest[b] = greatest_of(square);
+    }
+    for (int32_t b = 0; b < NB && world->placed; b++) {
+        double longest;
+        k_sqrt(greatest + b, &longest);
         world->way[b] += longest;
-        farthest = longest > farthest ? longest : farthest;
+        farthest = greater(longest, farthest);
     }
     world->farthest += farthest;
     world->placed = 1;

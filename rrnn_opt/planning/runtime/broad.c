@@ -48,18 +48,24 @@ static inline double greater(double a, double b)
     return a > b ? a : b;
 }
 
-/* Least entry of a block of eight. */
+/* Least entry of a block of eight, half against half. */
 static inline double least_of(const double *v)
 {
-    return lesser(lesser(lesser(v[0], v[1]), lesser(v[2], v[3])),
-                  lesser(lesser(v[4], v[5]), lesser(v[6], v[7])));
+    double half[4];
+    for (int32_t l = 0; l < 4; l++) {
+        half[l] = lesser(v[l], v[l + 4]);
+    }
+    return lesser(lesser(half[0], half[2]), lesser(half[1], half[3]));
 }
 
 /* Greatest entry of a block of eight. */
 static inline double greatest_of(const double *v)
 {
-    return greater(greater(greater(v[0], v[1]), greater(v[2], v[3])),
-                   greater(greater(v[4], v[5]), greater(v[6], v[7])));
+    double half[4];
+    for (int32_t l = 0; l < 4; l++) {
+        half[l] = greater(v[l], v[l + 4]);
+    }
+    return greater(greater(half[0], half[2]), greater(half[1], half[3]));
 }
 
 /* Least spare of all spheres above a node's box. */

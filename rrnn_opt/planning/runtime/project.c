@@ -96,10 +96,7 @@ static void write_rights(planner_t *planner)
     for (int32_t p = 0; p < planner->world.open_count; p++) {
         block_t *block = &planner->world.open[p];
         block->used = 0;
-        for (int32_t l = 0; l < LANES; l++) {
-            k_offset(block->gap + l, &planner->steering, block->bound + l,
-                     block->right + l);
-        }
+        k_block_offset(block->gap, planner->steering, block->bound, block->right);
     }
 }
 
@@ -110,11 +107,11 @@ typedef struct {
 } violation_t;
 
 /* Puts a block's violated rows among the worst ones, worst first. */
-static int32_t rank_violations(block_t *block, violation_t *worst, int32_t found,
-                               int32_t most)
+static int32_t rank_violations(block_t *block, const double *residuals,
+                               violation_t *worst, int32_t found, int32_t most)
 {
     for (int32_t l = 0; l < LANES; l++) {
-        const double residual = block->drift[l] - block->right[l];
+        const double residual = residuals[l];
         if (!(residual < -1e-9) || (block->used >> l & 1u) != 0 ||
             (found == most && residual >= worst[found - 1].residual)) {
             continue;
@@ -128,6 +125,15 @@ static int32_t rank_violations(block_t *block, violation_t *worst, int32_t found
     return found;
 }
 
+/* By how much each lane's row is kept, m; negative: violated. */
+static void block_residuals(const double *restrict drift, const double *restrict right,
+                            double *restrict residual)
+{
+    for (int32_t l = 0; l < LANES; l++) {
+        residual[l] = drift[l] - right[l];
+    }
+}
+
 /* Adds the rows most violated at the u just measured; returns how many. */
 static int32_t add_violated(planner_t *planner, const pose_t *pose,
                             duals_t *duals)
@@ -139,12 +145,10 @@ static int32_t add_violated(planner_t *planner, const pose_t *pose,
     most = most < ROW_MAX - duals->count ? most : ROW_MAX - duals->count;
     for (int32_t p = 0; p < world->open_count && most > 0; p++) {
         block_t *block = &world->open[p];
-        double least[LANES];
-        for (int32_t l = 0; l < LANES; l++) {
-            least[l] = block->drift[l] - block->right[l];
-        }
-        if (least_of(least) < -1e-9) {
-            found = rank_violations(block, worst, found, most);
+        double residual[LANES];
+        block_residuals(block->drift, block->right, residual);
+        if (least_of(residual) < -1e-9) {
+            found = rank_violations(block, residual, worst, found, most);
         }
     }
     for (int32_t i = 0; i < found; i++) {

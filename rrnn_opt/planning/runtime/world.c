@@ -97,6 +97,16 @@ static const double *block_motion(world_t *world, const pose_t *pose, int32_t b,
     return motion;
 }
 
+/* n' J u of the lanes of a block, from the velocities J u. */
+static void block_drift(const double *restrict n, const double *restrict v,
+                        double *restrict drift)
+{
+    for (int32_t l = 0; l < LANES; l++) {
+        drift[l] = n[l] * v[l] + n[LANES + l] * v[LANES + l] +
+                   n[2 * LANES + l] * v[2 * LANES + l];
+    }
+}
+
 /* Writes n' J u and B(u) of every open pair. */
 static void world_measure(world_t *world, const pose_t *pose, const double *u)
 {
@@ -108,12 +118,8 @@ static void world_measure(world_t *world, const pose_t *pose, const double *u)
             continue;
         }
         const double *v = block_motion(world, pose, block->first / LANES, u);
-        for (int32_t l = 0; l < LANES; l++) {
-            block->drift[l] = block->n[l] * v[l] +
-                              block->n[LANES + l] * v[LANES + l] +
-                              block->n[2 * LANES + l] * v[2 * LANES + l];
-            block->bound[l] = v[3 * LANES + l];
-        }
+        block_drift(block->n, v, block->drift);
+        memcpy(block->bound, v + 3 * LANES, sizeof block->bound);
     }
 }
 
@@ -128,11 +134,11 @@ static int world_proved(const world_t *world, const double *u, double radius,
     }
     for (int32_t p = 0; p < world->open_count; p++) {
         const block_t *block = &world->open[p];
-        int32_t proved = 0;
+        double kept[LANES];
         for (int32_t l = 0; l < LANES; l++) {
-            proved += block->gap[l] + block->drift[l] - 0.5 * block->bound[l] >= slack;
+            kept[l] = block->gap[l] + block->drift[l] - 0.5 * block->bound[l];
         }
-        if (proved < LANES) {
+        if (!(least_of(kept) >= slack)) {
             return 0;
         }
     }

@@ -33,6 +33,8 @@ Tree = tuple[Array, NDArray[np.int64]]
 FLAGS = ("-O3", "-ffp-contract=fast")
 """Loops over lanes vectorise at this level; products and sums may be fused, which
 rounds once where two roundings are allowed for.  No fast-math."""
+GCC_FLAGS = ("--param=max-completely-peel-times=7",)
+"""Without it gcc unrolls a short loop over eight lanes before it could vectorise it."""
 SLICE_S = 0.02
 """A search returns to Python so often, for progress and for signals."""
 STATUS = {
@@ -44,13 +46,17 @@ STATUS = {
 }
 
 
+def _flags() -> tuple[str, ...]:
+    return FLAGS + GCC_FLAGS if emit.find_compiler().kind == "gcc" else FLAGS
+
+
 class Runtime:
     """The compiled planner of one robot; stateless, any number of searches."""
 
     def __init__(self, robot: Robot, cell: MemoryCell) -> None:
         self.robot = robot
         self.built = emit.build(
-            source(robot, cell), name=f"planner_{robot.nv}", flags=FLAGS
+            source(robot, cell), name=f"planner_{robot.nv}", flags=_flags()
         )
         self._library = emit.load(self.built)
 
