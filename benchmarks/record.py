@@ -9,12 +9,12 @@ import platform
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
-from importlib import metadata
 from pathlib import Path
 
 import numpy as np
 
 from rrnn_opt.study.environment import commit
+from rrnn_opt.study.identity import versions
 
 RESULTS = Path(__file__).parent / "results"
 PACKAGES = ("rrnn_opt", "casadi", "numpy", "pin", "osqp", "daqp", "qpsolvers", "ompl")
@@ -108,7 +108,7 @@ def surroundings() -> dict:
         "cores": os.cpu_count(),
         "system": platform.platform(),
         "compiler": find_compiler().version,
-        "versions": {"python": platform.python_version()} | _versions(),
+        "versions": {"python": platform.python_version()} | versions(PACKAGES),
         "commit": commit() or "unknown",
         "date": datetime.date.today().isoformat(),
     }
@@ -133,13 +133,3 @@ def _cpu() -> str:
         return platform.processor() or "unknown processor"
     names = (line.split(":", 1)[1].strip() for line in lines if "model name" in line)
     return next(names, platform.machine())
-
-
-def _versions() -> dict[str, str]:
-    found = {}
-    for name in PACKAGES:
-        try:
-            found[name] = metadata.version(name)
-        except metadata.PackageNotFoundError:
-            continue
-    return found

@@ -9,7 +9,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 FILE_LINES, BODY_LINES = 250, 30
-ROOMS = ("rrnn_opt", "formulations", "validation")
+ROOMS = ("rrnn_opt", "formulations", "validation", "benchmarks", "tests", "examples")
 
 LONG_FUNCTIONS = {
     "rrnn_opt/robot/serial.py: robot_to_dict": "a document, field by field",
@@ -50,7 +50,7 @@ def long_functions(path: Path, name: str) -> set[str]:
 
 def test_functions_are_short_but_for_those_named():
     files = sources(".py")
-    assert len(files) > 400
+    assert len(files) > 900
     found = {
         entry
         for path in files

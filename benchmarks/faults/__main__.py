@@ -27,9 +27,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from benchmarks.faults.page import BAD, page
 from benchmarks.faults.place import PROBLEM, Place, contents, furnished, whole
 from rrnn_opt.report import write_text
-from rrnn_opt.study.environment import commit
 from rrnn_opt.validation.ending import ended
 
 PAGE = Path(__file__).parents[2] / "docs" / "results" / "faults.md"
@@ -39,9 +39,6 @@ STUDY = ("reproduce", "fig3", "--trials", "2", "--jobs", "1", "--out", "out")
 STUDY += ("--resume", "--json")
 PACKAGE = ("generate", "minimum_velocity", "--robot", "planar3", "--out", "out")
 WAYS = {"SIGKILL": signal.SIGKILL, "SIGTERM": signal.SIGTERM, "Ctrl-C": signal.SIGINT}
-GOOD = ("ended there", "ended before", "finished")
-BAD = ("torn file", "lost row", "mixed package", "wrong status", "poor sentence")
-BAD += ("hang", "other result")
 LATEST = 1.05
 """Of the time that a command takes: the last moment at which one is ended."""
 PATIENCE_S = 60.0
@@ -224,32 +221,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     if args.page:
         write_text(PAGE, text)
     return 1 if any(found[kind] for found in table.values() for kind in BAD) else 0
-
-
-def page(table: dict[tuple[str, str], collections.Counter[str]], command: str) -> str:
-    """The page that is kept."""
-    date = time.strftime("%Y-%m-%d", time.gmtime())
-    kinds = (*GOOD, *BAD)
-    rows = [("command", "ended by", *kinds)]
-    rows += [
-        (*key, *(str(found[kind]) for kind in kinds)) for key, found in table.items()
-    ]
-    lines = ["| " + " | ".join(row) + " |" for row in rows]
-    lines.insert(1, "|---|---|" + "---:|" * len(kinds))
-    head = [
-        "# Ended at any moment",
-        "",
-        f"`{command}` on {date}, commit {commit() or 'unknown'}.",
-        "",
-        "Commands ended at random moments of their time, the start of Python among it.",
-        "*Ended there*: with the status of the signal, and with one sentence if it was",
-        "asked to end; *ended before*: while Python still loaded the command;",
-        "*finished*: the signal came too late.  Every fifth time the command is run",
-        "again in what is left: *other result* counts those that differ from a run in",
-        "an empty folder.",
-        "",
-    ]
-    return "\n".join([*head, *lines]) + "\n"
 
 
 if __name__ == "__main__":

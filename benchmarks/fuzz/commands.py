@@ -7,13 +7,16 @@ import io
 import json
 import os
 import random
+import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import IO
 
 from benchmarks.fuzz import bases, mutation
 from benchmarks.fuzz.judging import ACCEPTED, REFUSED, Entry, WrongExitError
 
+Heard = Callable[[], str]
 OURS = "this is a fault of ours"
 WORDS = (
     *(name for name in mutation.NAMES if "\x00" not in name),
@@ -154,21 +157,14 @@ def _inside(folder: Path) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _streams() -> Iterator[tuple[object, object]]:
+def _streams() -> Iterator[tuple[Heard, Heard]]:
     """Both descriptors into files, so that C libraries are heard as well."""
-    import sys
-
     kept = [os.dup(k) for k in (1, 2)]
     files = [tempfile.TemporaryFile() for _ in kept]  # noqa: SIM115 - closed below
     sys.stdout.flush()
     sys.stderr.flush()
     texts: dict[int, str] = {}
-    streams = [
-        io.TextIOWrapper(
-            os.fdopen(os.dup(f.fileno()), "wb"), "utf-8", write_through=True
-        )
-        for f in files
-    ]
+    streams = [_writer(file) for file in files]
     for k, file in enumerate(files):
         os.dup2(file.fileno(), k + 1)
     try:
@@ -178,15 +174,19 @@ def _streams() -> Iterator[tuple[object, object]]:
         ):
             yield (lambda: texts[0]), (lambda: texts[1])
     finally:
-        for k, (file, stream, before) in enumerate(
-            zip(files, streams, kept, strict=True)
-        ):
-            stream.close()
+        for k, before in enumerate(kept):
+            streams[k].close()
             os.dup2(before, k + 1)
             os.close(before)
-            file.seek(0)
-            texts[k] = file.read().decode("utf-8", "replace")
-            file.close()
+            with files[k] as file:
+                file.seek(0)
+                texts[k] = file.read().decode("utf-8", "replace")
+
+
+def _writer(file: IO[bytes]) -> io.TextIOWrapper:
+    """Text into a file that stays open when the writer is closed."""
+    copy = os.fdopen(os.dup(file.fileno()), "wb")
+    return io.TextIOWrapper(copy, "utf-8", write_through=True)
 
 
 ENTRIES = (Entry("command line", attempt, 5),)

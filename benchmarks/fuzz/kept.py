@@ -142,6 +142,34 @@ def package(rng: random.Random, folder: Path) -> str:
     return ACCEPTED
 
 
+ROW: dict[str, Any] = {
+    "P": [1.0, 0.0, 0.0, 1.0],
+    "q": [1.0, -1.0],
+    "G": [1.0, 1.0],
+    "h": [1.0],
+    "A": None,
+    "b": None,
+    "lb": [-1.0, -1.0],
+    "ub": [1.0, 1.0],
+    "name": "a",
+}
+"""A quadratic programme, matrices row by row."""
+
+
+def _damage(rng: random.Random, columns: dict[str, list[Any]]) -> None:
+    """Take a column away, or fill it with nothing, bad numbers or other lengths."""
+    key = rng.choice(sorted(columns))
+    what = rng.randrange(4)
+    if what == 0:
+        del columns[key]
+    elif what == 1:
+        columns[key] = [None, None]
+    elif what == 2:
+        columns[key] = [[rng.choice((np.nan, np.inf, 1e300, 2.0))] * 2] * 2
+    else:
+        columns[key] = [[1.0] * rng.randrange(6)] * 2
+
+
 def test_set(rng: random.Random, folder: Path) -> str:
     """A Parquet test set of quadratic programmes, its cells or bytes damaged."""
     import pyarrow as pa
@@ -149,29 +177,9 @@ def test_set(rng: random.Random, folder: Path) -> str:
 
     from rrnn_opt.study.comparison import own_sets
 
-    row: dict[str, Any] = {
-        "P": [1.0, 0.0, 0.0, 1.0],
-        "q": [1.0, -1.0],
-        "G": [1.0, 1.0],
-        "h": [1.0],
-        "A": None,
-        "b": None,
-        "lb": [-1.0, -1.0],
-        "ub": [1.0, 1.0],
-        "name": "a",
-    }
-    columns: dict[str, list[Any]] = {key: [value] * 2 for key, value in row.items()}
+    columns: dict[str, list[Any]] = {key: [value] * 2 for key, value in ROW.items()}
     for _ in range(rng.choice((1, 1, 2))):
-        key = rng.choice(sorted(columns))
-        what = rng.randrange(4)
-        if what == 0:
-            del columns[key]
-        elif what == 1:
-            columns[key] = [None, None]
-        elif what == 2:
-            columns[key] = [[rng.choice((np.nan, np.inf, 1e300, 2.0))] * 2] * 2
-        else:
-            columns[key] = [[1.0] * rng.randrange(6)] * 2
+        _damage(rng, columns)
     path = folder / "set.parquet"
     pq.write_table(pa.table(columns), path)
     if rng.random() < 0.4:

@@ -13,19 +13,14 @@ from benchmarks.fuzz.motion_calls import Call, fields_of
 @functools.cache
 def symbolic_calls() -> dict[str, Call]:
     """Symbols, sets, schemes, networks, solving, claims."""
-    import casadi as ca
-    import qpsolvers
+    return _laws() | _sets() | _solvers() | _judges() | _claims()
 
+
+def _laws() -> dict[str, Call]:
     import rrnn_opt as rr
-    from rrnn_opt import formulations, networks, solving, symbolic
-    from rrnn_opt.claim import Claim, Range, Relation
+    from rrnn_opt import formulations, networks
 
     kin = rr.Kinematics(rr.Robot.builtin("planar3"))
-    form = formulations.minimum_velocity(kin)
-    x = ca.SX.sym("x", 3)
-    symbol = symbolic.Symbol("x", x)
-    point = {"q": [0.3, 0.5, 0.7], "rd_dot": [0.01, 0.0, 0.0]}
-    qp = qpsolvers.Problem(np.eye(2), np.ones(2), lb=-np.ones(2), ub=np.ones(2))
     rules = (networks.E47, networks.DualNetwork, networks.FiniteTimeZnn)
     rules += (networks.Hildreth, networks.Lvi94, networks.LviPdnn, networks.PrimalDual)
     rules += (networks.NoiseTolerantZnn, networks.SimplifiedLviPdnn, networks.Znn)
@@ -38,6 +33,18 @@ def symbolic_calls() -> dict[str, Call]:
     return {
         **{rule.__name__: (rule, fields_of(rule())) for rule in rules},
         **schemes,
+        "kin.position": (kin.position, {"frame": "tip"}),
+        "kin.jacobian": (kin.jacobian, {"frame": "tip"}),
+    }
+
+
+def _sets() -> dict[str, Call]:
+    import casadi as ca
+
+    from rrnn_opt import symbolic
+
+    x = ca.SX.sym("x", 3)
+    return {
         "Symbol": (symbolic.Symbol, {"name": "x", "sx": x, "unit": "m"}),
         "sets.Box": (symbolic.Box, {"lower": np.zeros(3), "upper": np.ones(3)}),
         "sets.Ball": (symbolic.Ball, {"center": np.zeros(3), "radius": 1.0}),
@@ -47,6 +54,17 @@ def symbolic_calls() -> dict[str, Call]:
             symbolic.Box(np.zeros(3), np.ones(3)).project,
             {"x": [1, 2, 3]},
         ),
+    }
+
+
+def _solvers() -> dict[str, Call]:
+    import rrnn_opt as rr
+    from rrnn_opt import networks, solving
+
+    kin = rr.Kinematics(rr.Robot.builtin("planar3"))
+    form = rr.formulations.minimum_velocity(kin)
+    point = {"q": [0.3, 0.5, 0.7], "rd_dot": [0.01, 0.0, 0.0]}
+    return {
         "Euler": (rr.Euler, {"h": 0.01}),
         "qp.at": (form.qp.at, point),
         "settle": (
@@ -54,6 +72,21 @@ def symbolic_calls() -> dict[str, Call]:
             {"dyn": networks.PrimalDual()(form), "tolerance": 1e-6, "max_steps": 100}
             | {"step": None, "start": None, "newton": True, **point},
         ),
+        "Qpsolvers": (solving.Qpsolvers, {"name": "daqp", "tolerance": 1e-6}),
+        "OsqpSession": (solving.OsqpSession, {"mode": "warm", "tolerance": 1e-6}),
+        "DaqpSession": (solving.DaqpSession, {"mode": "warm", "tolerance": 1e-6}),
+        "ActiveSet": (solving.ActiveSet, {"mode": "cold", "tolerance": 1e-6}),
+        "compile": (rr.emit.compile, {"functions": [], "name": "f", "real": "double"}),
+    }
+
+
+def _judges() -> dict[str, Call]:
+    import qpsolvers
+
+    from rrnn_opt import solving
+
+    qp = qpsolvers.Problem(np.eye(2), np.ones(2), lb=-np.ones(2), ub=np.ones(2))
+    return {
         "Tolerances": (solving.Tolerances, fields_of(solving.Tolerances())),
         "kkt_residual": (
             solving.kkt_residual,
@@ -63,10 +96,17 @@ def symbolic_calls() -> dict[str, Call]:
             solving.judge,
             {"problem": qp, "x": np.zeros(2), "duals": None, "tolerance": 1e-6},
         ),
-        "Qpsolvers": (solving.Qpsolvers, {"name": "daqp", "tolerance": 1e-6}),
-        "OsqpSession": (solving.OsqpSession, {"mode": "warm", "tolerance": 1e-6}),
-        "DaqpSession": (solving.DaqpSession, {"mode": "warm", "tolerance": 1e-6}),
-        "ActiveSet": (solving.ActiveSet, {"mode": "cold", "tolerance": 1e-6}),
+    }
+
+
+def _claims() -> dict[str, Call]:
+    import casadi as ca
+
+    from rrnn_opt import symbolic
+    from rrnn_opt.claim import Claim, Range, Relation
+
+    x = ca.SX.sym("x", 3)
+    return {
         "Relation": (Relation, {"expression": x, "sense": ">=0"}),
         "Range": (Range, {"variable": "x", "lower": (None,), "upper": (None,)}),
         "Claim": (
@@ -75,15 +115,12 @@ def symbolic_calls() -> dict[str, Call]:
                 "id": "C",
                 "source": "s",
                 "statement": "t",
-                "variables": (symbol,),
+                "variables": (symbolic.Symbol("x", x),),
                 "goal": Relation(x, ">=0"),
                 "order": None,
                 "jacobian": None,
             },
         ),
-        "kin.position": (kin.position, {"frame": "tip"}),
-        "kin.jacobian": (kin.jacobian, {"frame": "tip"}),
-        "compile": (rr.emit.compile, {"functions": [], "name": "f", "real": "double"}),
     }
 
 
@@ -99,26 +136,32 @@ def _scheme(name: str) -> dict[str, Any]:
 @functools.cache
 def other_calls() -> dict[str, Call]:
     """Studies, verification, packages, checks."""
-    import rrnn_opt as rr
-    from rrnn_opt import check, study, verification
-    from rrnn_opt.embedding.options import Options
+    return _studies() | _regions() | _packages()
 
-    arm = rr.Robot.builtin("planar3")
-    kin = rr.Kinematics(arm)
-    form = rr.formulations.minimum_velocity(kin)
-    dynamics = rr.networks.PrimalDual()(form)
-    region = {"centre": (0.0, 0.5, 1.0), "half_widths": (0.1, 0.1, 0.1)}
+
+def _studies() -> dict[str, Call]:
+    from rrnn_opt import study
+
     return {
         "wilson": (study.wilson, {"successes": 3, "n": 10, "confidence": 0.95}),
         "Processes": (study.Processes, {"jobs": 1, "attempts": 2, "patience_s": 1.0}),
         "Cluster": (study.Cluster, {"address": "tcp://127.0.0.1:1", "ahead": 3}),
         "local": (study.local, {"jobs": 1}),
         "generator": (study.generator, {"case": study.Case("k"), "seed": 0}),
+    }
+
+
+def _regions() -> dict[str, Call]:
+    from rrnn_opt import verification
+    from rrnn_opt.robot import Robot
+
+    region = {"centre": (0.0, 0.5, 1.0), "half_widths": (0.1, 0.1, 0.1)}
+    return {
         "Region": (verification.Region, region),
         "certify_region": (
             verification.certify_region,
             {
-                "arm": arm,
+                "arm": Robot.builtin("planar3"),
                 "region": verification.Region(**region),
                 "epsilon": 0.05,
                 "error": 0.1,
@@ -130,6 +173,18 @@ def other_calls() -> dict[str, Call]:
                 "jobs": 1,
             },
         ),
+    }
+
+
+def _packages() -> dict[str, Call]:
+    import rrnn_opt as rr
+    from rrnn_opt import check
+    from rrnn_opt.embedding.options import Options
+
+    arm = rr.Robot.builtin("planar3")
+    form = rr.formulations.minimum_velocity(rr.Kinematics(arm))
+    dynamics = rr.networks.PrimalDual()(form)
+    return {
         "Options": (Options, fields_of(Options())),
         "generate": (
             rr.generate,

@@ -12,21 +12,22 @@ import numpy as np
 Call = tuple[Callable[..., Any], Mapping[str, Any]]
 
 
+POSE = {"position": [0.0, 0.0, 0.0], "quat_xyzw": [0.0, 0.0, 0.0, 1.0]}
+
+
 @functools.cache
 def robot_calls() -> dict[str, Call]:
     """Robots, scenes and problems."""
-    import rrnn_opt as rr
-    from rrnn_opt import planning, robot, scene
-    from rrnn_opt.planning.problem.attached import Attached
+    return _shapes() | _problems() | _robots()
 
-    arm = rr.Robot.builtin("planar3")
-    pose = {"position": [0.0, 0.0, 0.0], "quat_xyzw": [0.0, 0.0, 0.0, 1.0]}
-    box = scene.Box("b", [1.0, 1.0, 1.0], [3.0, 0.0, 0.0])
-    tree, limits, frame = arm.tree, arm.limits, arm.frames[-1]
+
+def _shapes() -> dict[str, Call]:
+    from rrnn_opt import scene
+
     return {
-        "Box": (scene.Box, {"name": "b", "size": [1.0, 1.0, 1.0], **pose}),
-        "Cylinder": (scene.Cylinder, {"name": "c", "radius": 1.0, "length": 1, **pose}),
-        "Capsule": (scene.Capsule, {"name": "c", "radius": 1.0, "length": 1, **pose}),
+        "Box": (scene.Box, {"name": "b", "size": [1.0, 1.0, 1.0], **POSE}),
+        "Cylinder": (scene.Cylinder, {"name": "c", "radius": 1.0, "length": 1, **POSE}),
+        "Capsule": (scene.Capsule, {"name": "c", "radius": 1.0, "length": 1, **POSE}),
         "Sphere": (scene.Sphere, {"name": "s", "radius": 1.0, "position": [0, 0, 1]}),
         "HalfSpace": (
             scene.HalfSpace,
@@ -34,18 +35,25 @@ def robot_calls() -> dict[str, Call]:
         ),
         "Mesh": (scene.Mesh, {"name": "m", "path": "none.stl", "scale": 1.0}),
         "Points": (scene.Points, {"name": "p", "path": "none.npy", "radius": 1.0}),
+    }
+
+
+def _problems() -> dict[str, Call]:
+    import rrnn_opt as rr
+    from rrnn_opt import planning, scene
+    from rrnn_opt.planning.problem.attached import Attached
+
+    box = scene.Box("b", [1.0, 1.0, 1.0], [3.0, 0.0, 0.0])
+    goal = {"tolerance": 0.01, "angle_tolerance": 0.1, "free_axis": "z"}
+    return {
         "Scene": (scene.Scene, {"obstacles": (box,)}),
         "JointGoal": (planning.JointGoal, {"joints": [0.1, 0.2, 0.3]}),
-        "TipGoal": (
-            planning.TipGoal,
-            {"tolerance": 0.01, "angle_tolerance": 0.1, "free_axis": "z", **pose}
-            | {"region": [0.1, 0.1, 0.1]},
-        ),
+        "TipGoal": (planning.TipGoal, goal | POSE | {"region": [0.1, 0.1, 0.1]}),
         "Attached": (Attached, {"frame": "tip", "shape": box}),
         "Problem": (
             planning.Problem,
             {
-                "robot": arm,
+                "robot": rr.Robot.builtin("planar3"),
                 "start": np.zeros(3),
                 "goals": (planning.JointGoal([0.1, 0.2, 0.3]),),
                 "scene": scene.Scene((box,)),
@@ -56,15 +64,25 @@ def robot_calls() -> dict[str, Call]:
                 "name": "n",
             },
         ),
-        "robot.Limits": (robot.Limits, fields_of(limits)),
-        "robot.JointTree": (robot.JointTree, fields_of(tree)),
-        "robot.Frame": (robot.Frame, fields_of(frame)),
-        "robot.Sphere": (robot.Sphere, fields_of(arm.spheres[0])),
-        "robot.Robot": (robot.Robot, fields_of(arm)),
-        "Robot.builtin": (rr.Robot.builtin, {"name": "planar3"}),
-        "Robot.from_urdf": (rr.Robot.from_urdf, {"path": "none.urdf", "tip": "t"}),
         "Problem.from_dict": (rr.Problem.from_dict, {"data": {}}),
         "Problem.load": (rr.Problem.load, {"path": "none.json"}),
+    }
+
+
+def _robots() -> dict[str, Call]:
+    from rrnn_opt import robot
+    from rrnn_opt.robot import Robot
+
+    arm = Robot.builtin("planar3")
+    return {
+        "robot.Limits": (robot.Limits, fields_of(arm.limits)),
+        "robot.JointTree": (robot.JointTree, fields_of(arm.tree)),
+        "robot.Frame": (robot.Frame, fields_of(arm.frames[-1])),
+        "robot.Sphere": (robot.Sphere, fields_of(arm.spheres[0])),
+        "robot.Robot": (robot.Robot, fields_of(arm)),
+        "Robot.builtin": (Robot.builtin, {"name": "planar3"}),
+        "Robot.from_urdf": (Robot.from_urdf, {"path": "none.urdf", "tip": "t"}),
+        "Robot.from_dict": (Robot.from_dict, {"data": arm.to_dict()}),
     }
 
 
@@ -76,17 +94,16 @@ def fields_of(value: Any) -> dict[str, Any]:
 @functools.cache
 def motion_calls() -> dict[str, Call]:
     """Paths, timing, simulation, settings of planners."""
-    import rrnn_opt as rr
-    from rrnn_opt import motion, planning, simulation
+    return _paths() | _loops() | _plans()
 
-    arm = rr.Robot.builtin("planar3")
+
+def _paths() -> dict[str, Call]:
+    from rrnn_opt import motion
+    from rrnn_opt.robot import Robot
+
+    limits = Robot.builtin("planar3").limits
     way = [[0.0, 0.0, 0.0], [0.1, 0.2, 0.3]]
     rows = {"t": [0.0, 1.0], "q": way, "qd": [[0.0] * 3] * 2}
-    curve = simulation.Curve("point", 1.0, 0.1, offset=np.zeros(3))
-    problem = planning.Problem(
-        arm, np.zeros(3), goals=(planning.JointGoal([0.1, 0.2, 0.3]),)
-    )
-    task = simulation.Task(curve, np.full(3, 0.3))
     return {
         "Path": (motion.Path, {"waypoints": way}),
         "Trajectory": (motion.Trajectory, {**rows, "qdd": [[0.0] * 3] * 2}),
@@ -94,9 +111,9 @@ def motion_calls() -> dict[str, Call]:
         "RetimeSettings": (motion.RetimeSettings, fields_of(motion.RetimeSettings())),
         "retime": (
             motion.retime,
-            {"waypoints": way, "limits": arm.limits, "spacing": 0.1},
+            {"waypoints": way, "limits": limits, "spacing": 0.1},
         ),
-        "stop_and_go": (motion.stop_and_go, {"waypoints": way, "limits": arm.limits}),
+        "stop_and_go": (motion.stop_and_go, {"waypoints": way, "limits": limits}),
         "shortcut": (
             motion.shortcut,
             {
@@ -106,17 +123,38 @@ def motion_calls() -> dict[str, Call]:
                 "attempts": 5,
             },
         ),
-        "RandomRnn": (planning.RandomRnn, fields_of(planning.RandomRnn())),
-        "PaperRnn": (planning.PaperRnn, fields_of(planning.PaperRnn())),
-        "SingleRollout": (planning.SingleRollout, fields_of(planning.SingleRollout())),
+    }
+
+
+def _loops() -> dict[str, Call]:
+    from rrnn_opt import simulation
+    from rrnn_opt.robot import Robot
+
+    curve = simulation.Curve("point", 1.0, 0.1, offset=np.zeros(3))
+    task, arm = simulation.Task(curve, np.full(3, 0.3)), Robot.builtin("planar3")
+    return {
         "Curve": (simulation.Curve, fields_of(curve)),
         "Control": (simulation.Control, fields_of(simulation.Control())),
         "Noise": (simulation.Noise, fields_of(simulation.Noise())),
         "Task": (simulation.Task, fields_of(task)),
+        "Task.from_dict": (simulation.Task.from_dict, {"data": {}}),
         "simulate": (
             simulation.simulate,
             {"scheme": "minimum_velocity", "robot": arm, "task": task},
         ),
+    }
+
+
+def _plans() -> dict[str, Call]:
+    from rrnn_opt import planning
+    from rrnn_opt.robot import Robot
+
+    goals = (planning.JointGoal([0.1, 0.2, 0.3]),)
+    problem = planning.Problem(Robot.builtin("planar3"), np.zeros(3), goals=goals)
+    return {
+        "RandomRnn": (planning.RandomRnn, fields_of(planning.RandomRnn())),
+        "PaperRnn": (planning.PaperRnn, fields_of(planning.PaperRnn())),
+        "SingleRollout": (planning.SingleRollout, fields_of(planning.SingleRollout())),
         "plan": (
             planning.plan,
             {

@@ -60,19 +60,17 @@ def argument(rng: random.Random) -> Any:
 @functools.cache
 def declared() -> dict[str, Call]:
     """Formulations, dynamics, functions of Lyapunov, streams."""
+    return _declarations() | _made_of_a_scheme()
+
+
+def _declarations() -> dict[str, Call]:
     import casadi as ca
 
     import rrnn_opt as rr
-    from rrnn_opt import networks, solving
-    from rrnn_opt.verification import catalogue
 
-    kin = rr.Kinematics(rr.Robot.builtin("planar3"))
-    form = rr.formulations.minimum_velocity(kin)
-    u, p = rr.Symbol.vector("u", 2), rr.Symbol.vector("p", 2)
-    x = rr.Symbol.vector("x", 2)
+    u, p, x = (rr.Symbol.vector(name, 2) for name in "upx")
     flow = {"name": "d", "state": x, "parameters": (p,), "output": x.sx}
     flow |= {"residual": x.sx - p.sx, "multipliers": {}}
-    dyn = networks.LviPdnn()(form)
     scheme = {"decision": u, "parameters": (p,), "cost": ca.dot(u.sx, u.sx) / 2}
     scheme |= {"name": "f", "equalities": u.sx - p.sx, "inequalities": u.sx[0] - 1}
     scheme |= {"lower": [-1.0, -1.0], "upper": [1.0, 1.0]}
@@ -87,6 +85,18 @@ def declared() -> dict[str, Call]:
             {"value": ca.dot(x.sx, x.sx), "state": x, "parameters": (p,)},
         ),
         "V.derivative": (value.derivative, {"dynamics": decay}),
+    }
+
+
+def _made_of_a_scheme() -> dict[str, Call]:
+    import rrnn_opt as rr
+    from rrnn_opt import networks, solving
+    from rrnn_opt.verification import catalogue
+
+    kin = rr.Kinematics(rr.Robot.builtin("planar3"))
+    form = rr.formulations.minimum_velocity(kin)
+    dyn = networks.LviPdnn()(form)
+    return {
         "network of a scheme": (networks.LviPdnn(), {"form": form}),
         "Kinematics": (rr.Kinematics, {"robot": rr.Robot.builtin("planar3")}),
         "slide": (rr.formulations.slide, {"kin": kin, "contacts": (0,)}),
@@ -104,28 +114,23 @@ def declared() -> dict[str, Call]:
 @functools.cache
 def handled() -> dict[str, Call]:
     """Methods of what was made, and functions that were compiled."""
+    return _programs() | _batches() | _robots_and_motions() | _solvers() | _dynamics()
+
+
+def _function() -> Any:
     import casadi as ca
-    import qpsolvers
 
-    import rrnn_opt as rr
-    from rrnn_opt import emit, motion, networks, solving
-    from rrnn_opt.lyapunov import merit
-    from rrnn_opt.robot.restrict import restrict
-
-    arm = rr.Robot.builtin("planar3")
     q = ca.SX.sym("q", 3)
-    function = ca.Function("f", [q], [ca.sin(q), q.T @ q], ["q"], ["s", "n"])
-    program = emit.compile([function], name="fuzzed")
-    batch = emit.compile_batch(function)
-    timed = motion.retime([[0.0, 0.0, 0.0], [0.1, 0.2, 0.3]], arm.limits)
-    box = rr.symbolic.Box(np.zeros(3), np.ones(3))
-    qp = qpsolvers.Problem(np.eye(2), np.ones(2), lb=-np.ones(2), ub=np.ones(2))
-    form = rr.formulations.minimum_velocity(rr.Kinematics(arm))
-    own = rr.NeuralDynamics(
-        "d", rr.Symbol("q", q), (), derivative=-q, output=q, residual=q, multipliers={}
-    )
+    return ca.Function("f", [q], [ca.sin(q), q.T @ q], ["q"], ["s", "n"])
+
+
+def _programs() -> dict[str, Call]:
+    from rrnn_opt import emit
+
+    program = emit.compile([_function()], name="fuzzed")
     room = program.call("f", np.ones(3))
     return {
+        "emit.compile": (emit.compile, {"functions": [_function()], "name": "g"}),
         "Program.call": (_positional(program.call, "f"), {"q": np.ones(3)}),
         "Program.call out": (
             lambda out: program.call("f", np.ones(3), out=out),
@@ -139,17 +144,48 @@ def handled() -> dict[str, Call]:
             lambda q, n: program.map("f", q, n=n),
             {"q": np.ones((4, 3)), "n": 4},
         ),
+    }
+
+
+def _batches() -> dict[str, Call]:
+    from rrnn_opt import emit
+
+    batch = emit.compile_batch(_function())
+    return {
+        "compile_batch": (emit.compile_batch, {"fn": _function(), "lanes": 4}),
         "Batch": (_positional(batch), {"q": np.zeros((3, 5))}),
         "Batch out": (
             lambda out: batch(np.zeros((3, 8)), out=out),
             {"out": batch.room(8)},
         ),
+    }
+
+
+def _robots_and_motions() -> dict[str, Call]:
+    import rrnn_opt as rr
+    from rrnn_opt import motion
+    from rrnn_opt.robot.restrict import restrict
+
+    arm = rr.Robot.builtin("planar3")
+    timed = motion.retime([[0.0, 0.0, 0.0], [0.1, 0.2, 0.3]], arm.limits)
+    box = rr.symbolic.Box(np.zeros(3), np.ones(3))
+    return {
         "Trajectory.at": (timed.at, {"t": 0.1}),
         "Trajectory.stretched": (timed.stretched, {"factor": 2.0}),
         "Trajectory.from_dict": (motion.Trajectory.from_dict, {"data": {}}),
         "Robot.frame": (arm.frame, {"name": "tip"}),
         "restrict": (restrict, {"whole": arm, "locked": {arm.joint_names[0]: 0.1}}),
         "Box.support": (box.support, {"y": [1.0, 0.0, 0.0]}),
+    }
+
+
+def _solvers() -> dict[str, Call]:
+    import qpsolvers
+
+    from rrnn_opt import solving
+
+    qp = qpsolvers.Problem(np.eye(2), np.ones(2), lb=-np.ones(2), ub=np.ones(2))
+    return {
         "find_farkas": (solving.find_farkas, {"problem": qp, "tolerance": 1e-9}),
         "farkas_margin": (
             solving.farkas_margin,
@@ -162,8 +198,21 @@ def handled() -> dict[str, Call]:
             solving.compare,
             {"stream": None, "solvers": [solving.DaqpSession()], "tolerances": None},
         ),
-        "emit.compile": (emit.compile, {"functions": [function], "name": "g"}),
-        "compile_batch": (emit.compile_batch, {"fn": function, "lanes": 4}),
+    }
+
+
+def _dynamics() -> dict[str, Call]:
+    import rrnn_opt as rr
+    from rrnn_opt import networks
+    from rrnn_opt.lyapunov import merit
+
+    x = rr.Symbol.vector("x", 3)
+    own = rr.NeuralDynamics(
+        "d", x, (), derivative=-x.sx, output=x.sx, residual=x.sx, multipliers={}
+    )
+    kin = rr.Kinematics(rr.Robot.builtin("planar3"))
+    form = rr.formulations.minimum_velocity(kin)
+    return {
         "dynamics.step": (own.step, {"method": rr.Euler(0.1)}),
         "merit": (merit, {"dynamics": networks.LviPdnn()(form)}),
     }

@@ -85,9 +85,8 @@ def run(benchmark: Benchmark) -> None:
     one = [states[0].copy(), q[0].copy(), v[0].copy()]
     out = program.call("step", *one)
     called = seconds_each(lambda: program.call("step", *one, out=out), calls=2000)
-    osqp, osqp_left = solver_seconds(
-        OsqpSession(settings=LOOSE, tolerance=1e-4), instances
-    )
+    loose = OsqpSession(settings=LOOSE, tolerance=1e-4)
+    osqp, osqp_left = solver_seconds(loose, instances)
     daqp, daqp_left = solver_seconds(DaqpSession(), instances)
     settled = settle_seconds(dynamics, instances)
     base = step / rows

@@ -1,5 +1,7 @@
 """Small robots as plain documents, and the whole built-in ones."""
 
+import copy
+
 import numpy as np
 import pytest
 
@@ -16,6 +18,43 @@ def pose(xyz=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0), angle=0.0):
 
 def sphere(link, joint, center=(0.0, 0.0, 0.0), radius=0.05):
     return {"link": link, "joint": joint, "center": list(center), "radius": radius}
+
+
+TREE = {
+    "name": "tree",
+    "parents": [-1, 0, 1, 0, 3],
+    "placements": [
+        pose((0.1, 0.0, 0.3), (1, 1, 0), 0.3),
+        pose((0.2, 0.1, 0.0), (0, 1, 0), -0.7),
+        pose((0.3, 0.0, 0.1), (1, 0, 0), 1.1),
+        pose((-0.2, 0.1, 0.2), (0, 1, 1), 0.4),
+        pose((0.0, 0.25, 0.0), (1, 0, 1), 2.0),
+    ],
+    "axes": [[0, 0, 1], [1, 0, 0], [1 / 3, 2 / 3, -2 / 3], [0, 1, 0], [0, 0, 1]],
+    "types": ["revolute", "prismatic", "revolute", "prismatic", "continuous"],
+    "coupling": {
+        "source": [0, 1, 2, 1, 3],
+        "multiplier": [1.0, 1.0, 1.0, -0.5, 2.0],
+        "offset": [0.0, 0.0, 0.2, 0.1, 0.0],
+    },
+    "joint_names": ["a", "b", "c", "d"],
+    "tip": {"name": "hand", "joint": 2, "placement": pose((0.1, 0.2, 0.0))},
+    "spheres": [
+        sphere("base", -1, (0.0, 0.0, 0.1), 0.1),
+        sphere("one", 0, (0.1, 0.0, 0.0)),
+        sphere("two", 2, (0.1, 0.2, 0.05)),
+        sphere("two", 2, (0.2, 0.2, 0.05), 0.04),
+        sphere("three", 4, (0.05, -0.1, 0.2), 0.03),
+    ],
+    "self_pairs": [["two", "three"], ["base", "two"], ["base", "three"]],
+    "limits": {
+        "lower": [-3.0, -0.3, -3.0, None],
+        "upper": [3.0, 0.4, 3.0, None],
+        "velocity": [2.0, 0.5, 2.0, 3.0],
+        "acceleration": [10.0, 2.0, 10.0, 10.0],
+    },
+}
+"""Five joints in a tree: turns, slides, a coupled joint, odd axes."""
 
 
 @pytest.fixture
@@ -47,42 +86,7 @@ def planar():
 
 @pytest.fixture
 def tree():
-    """Five joints in a tree: turns, slides, a coupled joint, odd axes."""
-    axis = np.array([1.0, 2.0, -2.0]) / 3.0
-    return {
-        "name": "tree",
-        "parents": [-1, 0, 1, 0, 3],
-        "placements": [
-            pose((0.1, 0.0, 0.3), (1, 1, 0), 0.3),
-            pose((0.2, 0.1, 0.0), (0, 1, 0), -0.7),
-            pose((0.3, 0.0, 0.1), (1, 0, 0), 1.1),
-            pose((-0.2, 0.1, 0.2), (0, 1, 1), 0.4),
-            pose((0.0, 0.25, 0.0), (1, 0, 1), 2.0),
-        ],
-        "axes": [[0, 0, 1], [1, 0, 0], axis.tolist(), [0, 1, 0], [0, 0, 1]],
-        "types": ["revolute", "prismatic", "revolute", "prismatic", "continuous"],
-        "coupling": {
-            "source": [0, 1, 2, 1, 3],
-            "multiplier": [1.0, 1.0, 1.0, -0.5, 2.0],
-            "offset": [0.0, 0.0, 0.2, 0.1, 0.0],
-        },
-        "joint_names": ["a", "b", "c", "d"],
-        "tip": {"name": "hand", "joint": 2, "placement": pose((0.1, 0.2, 0.0))},
-        "spheres": [
-            sphere("base", -1, (0.0, 0.0, 0.1), 0.1),
-            sphere("one", 0, (0.1, 0.0, 0.0)),
-            sphere("two", 2, (0.1, 0.2, 0.05)),
-            sphere("two", 2, (0.2, 0.2, 0.05), 0.04),
-            sphere("three", 4, (0.05, -0.1, 0.2), 0.03),
-        ],
-        "self_pairs": [["two", "three"], ["base", "two"], ["base", "three"]],
-        "limits": {
-            "lower": [-3.0, -0.3, -3.0, None],
-            "upper": [3.0, 0.4, 3.0, None],
-            "velocity": [2.0, 0.5, 2.0, 3.0],
-            "acceleration": [10.0, 2.0, 10.0, 10.0],
-        },
-    }
+    return copy.deepcopy(TREE)
 
 
 @pytest.fixture(params=["planar", "tree", "panda", "pa10", "planar3", "raven2"])

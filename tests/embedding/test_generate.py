@@ -62,32 +62,24 @@ def test_steps_are_those_of_the_dynamics(networks, shared, tmp_path, name, real,
     assert list(state.x) == [0.0] * dynamics.state.size
     oracle = dynamics.step(Euler(h)).functions()["step"]
     residual = dynamics.functions()["residual"]
-    rng = np.random.default_rng(5)
-    x = np.zeros(dynamics.state.size)
+    near = {"rtol": TOLERANCE[real], "atol": TOLERANCE[real]}
+    rng, x = np.random.default_rng(5), np.zeros(dynamics.state.size)
     for tick in range(20):
         drawn = [0.4 * rng.standard_normal(p.size) for p in dynamics.parameters]
         given = In(*[(number * len(v))(*v) for v in drawn])
         exact = [np.array(list(getattr(given, p.name))) for p in dynamics.parameters]
-        assert (
-            lib.arm_step(ctypes.byref(state), ctypes.byref(given), ctypes.byref(out))
-            == 0
-        )
+        assert lib.arm_step(*(ctypes.byref(part) for part in (state, given, out))) == 0
         for _ in range(steps):
             last = np.max(np.abs(np.asarray(residual(x, *exact))))
             x = np.asarray(oracle(x, *exact)[0]).ravel()
         want = np.asarray(oracle(x, *exact)[1]).ravel()
-        np.testing.assert_allclose(
-            list(state.x), x, rtol=TOLERANCE[real], atol=TOLERANCE[real]
-        )
-        np.testing.assert_allclose(
-            list(out.output), want, rtol=TOLERANCE[real], atol=TOLERANCE[real]
-        )
+        np.testing.assert_allclose(list(state.x), x, **near)
+        np.testing.assert_allclose(list(out.output), want, **near)
         assert out.residual == pytest.approx(last, rel=1e-3, abs=1e-4)
         assert state.tick == tick + 1
         x = np.array(list(state.x))  # so that rounding does not pile up
-    hash_ = lib.arm_model_hash
-    hash_.restype = ctypes.c_char_p
-    assert hash_().decode() == package.manifest["model_hash"]
+    lib.arm_model_hash.restype = ctypes.c_char_p
+    assert lib.arm_model_hash().decode() == package.manifest["model_hash"]
 
 
 @pytest.mark.parametrize("real", ["double", "float"])

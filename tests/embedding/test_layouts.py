@@ -11,6 +11,7 @@ import pytest
 from rrnn_opt.embedding import generate
 
 GIVEN = {"q": [0.3, 0.4, 0.5], "rd": [1.2, 0.9, 0.0]}
+SHARED = ("-shared", "-fPIC")
 
 
 @pytest.fixture(params=["double", "float"])
@@ -23,21 +24,25 @@ def package(networks, request):
     )
 
 
+def fmu_of(folder, cc):
+    """The folder with its library for this machine, as an FMU beside it."""
+    library = cc(sorted((folder / "sources").glob("*.c")), "arm_fmu.so", *SHARED)
+    place = folder / "binaries" / f"{platform.machine()}-linux" / "arm.so"
+    place.parent.mkdir(parents=True)
+    shutil.copy(library, place)
+    archive = shutil.make_archive(str(folder.parent / "arm"), "zip", folder)
+    return shutil.move(archive, folder.parent / "arm.fmu")
+
+
 def test_the_fmu_holds_and_agrees(package, cc, controller, tmp_path):
     fmpy = pytest.importorskip("fmpy", reason="needs fmpy (PyPI)")
     from fmpy.fmi3 import FMU3Slave
     from fmpy.validation import validate_fmu
 
     folder = package.write(tmp_path) / "fmu"
-    sources = sorted((folder / "sources").glob("*.c"))
-    library = cc(sources, "arm_fmu.so", "-shared", "-fPIC")
-    place = folder / "binaries" / f"{platform.machine()}-linux" / "arm.so"
-    place.parent.mkdir(parents=True)
-    shutil.copy(library, place)
-    archive = shutil.make_archive(str(tmp_path / "arm"), "zip", folder)
-    shutil.move(archive, tmp_path / "arm.fmu")
-    assert validate_fmu(str(tmp_path / "arm.fmu")) == []
-    description = fmpy.read_model_description(str(tmp_path / "arm.fmu"))
+    archive = str(fmu_of(folder, cc))
+    assert validate_fmu(archive) == []
+    description = fmpy.read_model_description(archive)
     slave = FMU3Slave(
         guid=description.guid,
         unzipDirectory=str(folder),

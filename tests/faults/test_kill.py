@@ -135,19 +135,20 @@ def lines_of(folder):
     return sum(text.count(b"\n") for text in texts) if not parts else 10**9
 
 
+SMALL_SOAK = """
+import sys, benchmarks.soak.run as soak
+from benchmarks.soak.scenes import cluttered
+from rrnn_opt.robot import Robot
+kind = {'planar3': cluttered(Robot.builtin('planar3'))}
+soak.makers = lambda out: kind
+sys.exit(soak.main(['--plans', '12', '--out', 'out']))
+"""
+
+
 @pytest.mark.slow
 def test_a_killed_soak_loses_no_line(tmp_path, warm_cache):
     place = furnished(tmp_path / "place", warm_cache)
-    code = (
-        "import sys, benchmarks.soak.run as soak\n"
-        "from pathlib import Path\n"
-        "from benchmarks.soak.scenes import cluttered\n"
-        "from rrnn_opt.robot import Robot\n"
-        "kind = {'planar3': cluttered(Robot.builtin('planar3'))}\n"
-        "soak.makers = lambda out: kind\n"
-        "sys.exit(soak.main(['--plans', '12', '--out', 'out']))\n"
-    )
-    (place.path / "small_soak.py").write_text(code)
+    (place.path / "small_soak.py").write_text(SMALL_SOAK)
     seen: dict[str, bytes] = {}
     rng = random.Random(3)
     for _ in range(3 * ROUNDS):

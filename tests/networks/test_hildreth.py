@@ -49,6 +49,15 @@ def sweep_in_c():
     return entry
 
 
+def swept(sweep_in_c, sweeps, rows, h, w):
+    """Multipliers of the rows, of the box, and the point after some sweeps in C."""
+    lam, z, x = np.zeros(3), np.zeros(4), w.copy()
+    given = (np.ascontiguousarray(rows), h, np.full(4, -BOUND), np.full(4, BOUND))
+    pointers = [a.ctypes.data for a in given]
+    sweep_in_c(4, 3, *pointers, sweeps, *(a.ctypes.data for a in (lam, z, x)))
+    return lam, z, x
+
+
 @pytest.mark.parametrize("sweeps", [1, 2, 25])
 def test_it_is_the_sweep_of_the_planner(sweep_in_c, sweeps):
     """With w = -c, rows = -G, h = -h; row 2 is zero and must be left out."""
@@ -72,12 +81,7 @@ def test_it_is_the_sweep_of_the_planner(sweep_in_c, sweeps):
         state = np.zeros(7)
         for _ in range(sweeps):
             state = law(dynamics, state, given)
-        flat = np.ascontiguousarray(given["rows"])
-        lower, upper = np.full(4, -BOUND), np.full(4, BOUND)
-        lam, z, x = np.zeros(3), np.zeros(4), given["w"].copy()
-        pointers = [a.ctypes.data for a in (flat, given["h"], lower, upper)]
-        mutable = [a.ctypes.data for a in (lam, z, x)]
-        sweep_in_c(4, 3, *pointers, sweeps, *mutable)
+        lam, z, x = swept(sweep_in_c, sweeps, **given)
         np.testing.assert_allclose(state, [*lam, *-z], atol=1e-12)
         np.testing.assert_allclose(
             values(dynamics, "output", state, given), x, atol=1e-12

@@ -14,28 +14,14 @@ from rrnn_opt.scene import Sphere as Ball
 
 def chain(joints, seed):
     """A chain of links 1 m in all, every fourth joint prismatic, axes at random."""
-    rng = np.random.default_rng([seed, joints])
-    step = 1.0 / joints
-    types = tuple("prismatic" if k % 4 == 2 else "revolute" for k in range(joints))
-    placements = np.tile(np.eye(4), (joints, 1, 1))
-    placements[1:, :3, 3] = [step, 0.0, 0.0]
-    axes = rng.normal(size=(joints, 3))
-    axes /= np.linalg.norm(axes, axis=1)[:, None]
-    slides = np.array([t == "prismatic" for t in types])
-    end = np.eye(4)
+    step, end = 1.0 / joints, np.eye(4)
     end[:3, 3] = [step, 0.0, 0.0]
+    tree = joint_tree(joints, seed)
+    slides = np.array([t == "prismatic" for t in tree.types])
     return Robot(
         name=f"chain{joints}",
         joint_names=tuple(f"j{k}" for k in range(joints)),
-        tree=JointTree(
-            parents=np.arange(joints) - 1,
-            types=types,
-            placements=placements,
-            axes=axes,
-            source=np.arange(joints),
-            multiplier=np.ones(joints),
-            offset=np.zeros(joints),
-        ),
+        tree=tree,
         limits=Limits(
             np.where(slides, -0.05, -1.5),
             np.where(slides, 0.05, 1.5),
@@ -48,6 +34,24 @@ def chain(joints, seed):
             Sphere(f"link{k}", k, np.array([step / 2, 0.0, 0.0]), 0.02 + step / 2)
             for k in range(joints)
         ),
+    )
+
+
+def joint_tree(joints, seed):
+    rng = np.random.default_rng([seed, joints])
+    types = tuple("prismatic" if k % 4 == 2 else "revolute" for k in range(joints))
+    placements = np.tile(np.eye(4), (joints, 1, 1))
+    placements[1:, :3, 3] = [1.0 / joints, 0.0, 0.0]
+    axes = rng.normal(size=(joints, 3))
+    axes /= np.linalg.norm(axes, axis=1)[:, None]
+    return JointTree(
+        parents=np.arange(joints) - 1,
+        types=types,
+        placements=placements,
+        axes=axes,
+        source=np.arange(joints),
+        multiplier=np.ones(joints),
+        offset=np.zeros(joints),
     )
 
 

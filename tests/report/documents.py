@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from itertools import pairwise
 
 import numpy as np
@@ -24,6 +25,24 @@ WALL = (
 START = (0.712, 0.470, -1.618, 2.383, -3.881, -2.729, -1.815)
 THROUGH = (-0.10, 0.30, -0.25, 2.15, -1.2, -1.10, -1.0)
 END = (0.290, 0.716, -0.393, 1.492, -0.354, -1.833, 3.277)
+CERTIFICATE = {
+    "collision_free": "PROVED",
+    "limits": "PROVED",
+    "clearance_lower_bound": 0.0021,
+    "goal_error": 2e-4,
+    "goal_angle_error": None,
+    "method": "subdivision",
+    "checks": 1234,
+    "time_s": 0.05,
+}
+STATS = {
+    "explorations": 9,
+    "random": 4,
+    "heuristic": 5,
+    "nodes": 21,
+    "rollout_steps": 800,
+    "time_s": 0.06,
+}
 
 
 def _placement(length: float, twist: float) -> list[list[float]]:
@@ -129,25 +148,8 @@ def window() -> dict:
         "message": "found and proved",
         "path": [list(START), list(THROUGH), list(END)],
         "trajectory": timed([START, THROUGH, END], piece=2.0),
-        "certificate": {
-            "collision_free": "PROVED",
-            "limits": "PROVED",
-            "clearance_lower_bound": 0.0021,
-            "goal_error": 2e-4,
-            "goal_angle_error": None,
-            "method": "subdivision",
-            "checks": 1234,
-            "time_s": 0.05,
-        },
-        "stats": {
-            "explorations": 9,
-            "random": 4,
-            "heuristic": 5,
-            "nodes": 21,
-            "rollout_steps": 800,
-            "time_s": 0.06,
-            "memory_cell": cell.tolist(),
-        },
+        "certificate": dict(CERTIFICATE),
+        "stats": {**STATS, "memory_cell": cell.tolist()},
         "problem": {
             "robot": "pa10",
             "start": list(START),
@@ -162,36 +164,27 @@ def window() -> dict:
     }
 
 
+TURNED = [0.0, 0.0, np.sin(0.4), np.cos(0.4)]
+SHAPES = [
+    {"name": "box", "type": "box", "size": [0.3, 0.2, 0.5], "position": [1, 1, 0]},
+    {"name": "can", "type": "cylinder", "radius": 0.1, "length": 0.5}
+    | {"position": [-0.5, 1, 0], "quat_xyzw": TURNED},
+    {"name": "pill", "type": "capsule", "radius": 0.1, "length": 0.4}
+    | {"position": [0.3, 1.4, 0]},
+    {"name": "ball", "type": "sphere", "radius": 0.2, "position": [1.8, 1, 0.1]},
+    {"name": "floor", "type": "halfspace", "normal": [0, 0, 1], "offset": -0.4},
+    {"name": "blob", "type": "mesh", "path": "blob.stl"},
+]
+
+
 def every_shape() -> dict:
     """A planar arm among one obstacle of each kind, and one unknown."""
-    turned = [0.0, 0.0, np.sin(0.4), np.cos(0.4)]
-    obstacles = [
-        {"name": "box", "type": "box", "size": [0.3, 0.2, 0.5], "position": [1, 1, 0]},
-        {
-            "name": "can",
-            "type": "cylinder",
-            "radius": 0.1,
-            "length": 0.5,
-            "position": [-0.5, 1, 0],
-            "quat_xyzw": turned,
-        },
-        {
-            "name": "pill",
-            "type": "capsule",
-            "radius": 0.1,
-            "length": 0.4,
-            "position": [0.3, 1.4, 0],
-        },
-        {"name": "ball", "type": "sphere", "radius": 0.2, "position": [1.8, 1, 0.1]},
-        {"name": "floor", "type": "halfspace", "normal": [0, 0, 1], "offset": -0.4},
-        {"name": "blob", "type": "mesh", "path": "blob.stl"},
-    ]
     start, end = [0.0, 0.4, 0.0], [1.2, 0.9, 0.2]
     problem = {"robot": "planar", "start": start, "goal": {"joints": end}}
     return {
         **window(),
         "path": [start, end],
         "trajectory": timed([start, end]),
-        "problem": {**problem, "obstacles": obstacles, "margin": 0.0},
+        "problem": {**problem, "obstacles": copy.deepcopy(SHAPES), "margin": 0.0},
         "robot": planar(),
     }

@@ -9,6 +9,7 @@ counted, which favours OMPL.  Its edges are checked every 1/32 rad, not proved.
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -61,7 +62,6 @@ def rrt_connect(problem: Problem, goal: Array, limit_s: float) -> PeerRun:
         ImportError: ``ompl`` is not installed.
     """
     from ompl import base as ob
-    from ompl import geometric as og
     from ompl import util
 
     util.setLogLevel(util.LOG_NONE)
@@ -70,27 +70,50 @@ def rrt_connect(problem: Problem, goal: Array, limit_s: float) -> PeerRun:
     settings, packed = RandomRnn(), pack(problem, (), (), 0)
     runtime = runtime_of(problem.robot, settings.cell)
     with Search(runtime, settings, packed.struct, packed.keep) as search:
-        information, counted = _space(problem, goal, search)
-        space = information.getStateSpace()
-        definition = ob.ProblemDefinition(information)
-        definition.addStartState(_state(space, problem.start))
-        goals = ob.GoalStates(information)
-        goals.addState(_state(space, goal))
-        definition.setGoal(goals)
-        planner = og.RRTConnect(information)
-        planner.setProblemDefinition(definition)
-        planner.setup()
+        planner, counted = connecting(problem, [goal], search)
         begin = time.thread_time()
         spent = ob.PlannerTerminationCondition(
             lambda: time.thread_time() - begin > limit_s
         )
         found = bool(planner.solve(spent))
         cpu = time.thread_time() - begin
-        solved = found and bool(definition.hasExactSolution())
+        solved = found and bool(planner.getProblemDefinition().hasExactSolution())
         return PeerRun(solved, counted[0], _check_cost(problem, goal, search), cpu)
 
 
-def _space(problem: Problem, goal: Array, search: Search) -> tuple[Any, list[int]]:
+def connecting(
+    problem: Problem, goals: Sequence[Array], search: Search
+) -> tuple[Any, list[int]]:
+    """RRTConnect, set up with our checker, and the number of its checks so far.
+
+    Args:
+        problem: start, robot and scene.
+        goals: postures, (nv,) each, rad or m; any will do.
+        search: whose checker it gets.
+
+    Raises:
+        ImportError: ``ompl`` is not installed.
+    """
+    from ompl import base as ob
+    from ompl import geometric as og
+
+    information, counted = _space(problem, goals, search)
+    space = information.getStateSpace()
+    definition = ob.ProblemDefinition(information)
+    definition.addStartState(_state(space, problem.start))
+    targets = ob.GoalStates(information)
+    for goal in goals:
+        targets.addState(_state(space, goal))
+    definition.setGoal(targets)
+    planner = og.RRTConnect(information)
+    planner.setProblemDefinition(definition)
+    planner.setup()
+    return planner, counted
+
+
+def _space(
+    problem: Problem, goals: Sequence[Array], search: Search
+) -> tuple[Any, list[int]]:
     """OMPL's space information with our checker, and its counter."""
     from ompl import base as ob
 
@@ -98,8 +121,8 @@ def _space(problem: Problem, goal: Array, search: Search) -> tuple[Any, list[int
     space, bounds = ob.RealVectorStateSpace(nv), ob.RealVectorBounds(nv)
     low, high = sampling_box(problem)
     for k in range(nv):
-        bounds.setLow(k, float(min(low[k], goal[k])))
-        bounds.setHigh(k, float(max(high[k], goal[k])))
+        bounds.setLow(k, float(min(low[k], *(goal[k] for goal in goals))))
+        bounds.setHigh(k, float(max(high[k], *(goal[k] for goal in goals))))
     space.setBounds(bounds)
     information = ob.SpaceInformation(space)
 

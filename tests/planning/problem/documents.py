@@ -1,48 +1,52 @@
 """Problem documents that tests share."""
 
+import copy
+
 import numpy as np
 
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.tree import Frame, JointTree, Limits, Sphere
 
+VALID = {
+    "name": "reach round a post",
+    "robot": "planar3",
+    "frame": "tip",
+    "locked": {},
+    "start": [0.1, 0.2, 0.3],
+    "goal": [
+        {"joints": [1, 1, 1]},
+        {"position": [1, 1, 0]},
+        {
+            "position": [1.5, 1, 0],
+            "tolerance": 0.01,
+            "quat_xyzw": [0, 0, 0.6, 0.8],
+            "angle_tolerance": 0.1,
+        },
+    ],
+    "obstacles": [
+        {
+            "name": "b",
+            "type": "box",
+            "size": [0.1, 0.2, 0.3],
+            "position": [2, 0, 0],
+        },
+        {"type": "cylinder", "radius": 0.1, "length": 0.2, "position": [2, 0, 1]},
+        {
+            "type": "capsule",
+            "radius": 0.1,
+            "length": 1,
+            "position": [0, 2, 1],
+            "quat_xyzw": [0.6, 0, 0, 0.8],
+        },
+        {"type": "sphere", "radius": 0.1, "position": [2, 0, 1]},
+        {"type": "halfspace", "normal": [0, 0, 1], "offset": -0.5},
+    ],
+    "margin": 0.01,
+}
+
 
 def valid():
-    return {
-        "name": "reach round a post",
-        "robot": "planar3",
-        "frame": "tip",
-        "locked": {},
-        "start": [0.1, 0.2, 0.3],
-        "goal": [
-            {"joints": [1, 1, 1]},
-            {"position": [1, 1, 0]},
-            {
-                "position": [1.5, 1, 0],
-                "tolerance": 0.01,
-                "quat_xyzw": [0, 0, 0.6, 0.8],
-                "angle_tolerance": 0.1,
-            },
-        ],
-        "obstacles": [
-            {
-                "name": "b",
-                "type": "box",
-                "size": [0.1, 0.2, 0.3],
-                "position": [2, 0, 0],
-            },
-            {"type": "cylinder", "radius": 0.1, "length": 0.2, "position": [2, 0, 1]},
-            {
-                "type": "capsule",
-                "radius": 0.1,
-                "length": 1,
-                "position": [0, 2, 1],
-                "quat_xyzw": [0.6, 0, 0, 0.8],
-            },
-            {"type": "sphere", "radius": 0.1, "position": [2, 0, 1]},
-            {"type": "halfspace", "normal": [0, 0, 1], "offset": -0.5},
-        ],
-        "margin": 0.01,
-    }
+    return copy.deepcopy(VALID)
 
 
 def changed(*path_and_value):

@@ -28,16 +28,11 @@ def test_files_are_sought_beside_the_problem_file(tmp_path, monkeypatch):
     (tmp_path / "arm").mkdir()
     for file in ("arm/one.urdf", "balls.json"):
         (tmp_path / file).write_text("")
-    data = {
-        **minimal(),
-        "robot": "arm/one.urdf",
-        "spheres": "balls.json",
-        "frame": "tip",
-        "locked": {"finger": 0.02},
-        "start": [0],
-    }
-    (tmp_path / "p.json").write_text(json.dumps(data))
-    problem = Problem.load(tmp_path / "p.json")
+    data = minimal() | {"robot": "arm/one.urdf", "spheres": "balls.json"}
+    data |= {"frame": "tip", "locked": {"finger": 0.02}, "start": [0]}
+    file = tmp_path / "p.json"
+    file.write_text(json.dumps(data))
+    problem = Problem.load(file)
     assert asked == {
         "path": tmp_path / "arm/one.urdf",
         "tip": "tip",
@@ -49,7 +44,7 @@ def test_files_are_sought_beside_the_problem_file(tmp_path, monkeypatch):
     assert written["locked"] == {"finger": 0.02}
     (tmp_path / "balls.json").unlink()
     with pytest.raises(ProblemError, match="spheres: there is no file"):
-        Problem.load(tmp_path / "p.json")
+        Problem.load(file)
 
 
 @pytest.mark.parametrize("file", FAMILIES, ids=lambda f: f.stem)

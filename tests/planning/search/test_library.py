@@ -83,29 +83,19 @@ def test_gaps_change_as_the_rows_say(
                 assert change == pytest.approx(predicted, abs=1e-9)
 
 
+def each_sphere(robot, bound, u):
+    """A bound on the motion of each sphere for the step u, (n, 1)."""
+    levers, mask = reach(robot), ancestor_mask(robot).astype(float)
+    columns = zip(levers.T, mask.T, strict=True)
+    return ca.vertcat(*(bound(robot.tree, u, ca.SX(a), ca.SX(b)) for a, b in columns))
+
+
 @pytest.mark.parametrize("name", ["pa10", "panda", "raven2", "planar3"])
 def test_remainder_never_exceeds_the_motion_bound(name, rng):
     robot = rr.Robot.builtin(name)
     kin, u = rr.Kinematics(robot), ca.SX.sym("u", robot.nv)
-    levers, mask = reach(robot), ancestor_mask(robot).astype(float)
-    columns = range(len(robot.spheres))
     both = ca.Function(
-        "bounds",
-        [u],
-        [
-            ca.vertcat(
-                *(
-                    motion_bound(robot.tree, u, ca.SX(levers[:, i]), ca.SX(mask[:, i]))
-                    for i in columns
-                )
-            ),
-            ca.vertcat(
-                *(
-                    travel(robot.tree, u, ca.SX(levers[:, i]), ca.SX(mask[:, i]))
-                    for i in columns
-                )
-            ),
-        ],
+        "bounds", [u], [each_sphere(robot, f, u) for f in (motion_bound, travel)]
     )
     centres = ca.Function("c", [kin.q], [kin.sphere_centres()])
     tangent = ca.Function(
