@@ -34,6 +34,7 @@ class Robot(RobotData):
 
         Raises:
             RobotError: an entry is missing or makes no sense.
+            NotFiniteError: a number is not finite.
         """
         return Robot(**vars(robot_from_dict(data)))
 

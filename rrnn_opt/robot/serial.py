@@ -88,13 +88,20 @@ def robot_from_dict(data: Mapping[str, Any]) -> RobotData:
 
     Raises:
         RobotError: an entry is missing or makes no sense.
+        NotFiniteError: a number is not finite.
     """
-    name = str(data.get("name", "robot"))
+    if not isinstance(data, Mapping):
+        raise RobotError("robot", f"is no mapping but a {type(data).__name__}")
+    name = data.get("name", "robot")
+    if not isinstance(name, str):
+        raise RobotError("robot", "'name' is no text")
     try:
         return _robot(name, data)
     except KeyError as error:
         raise RobotError(name, f"the entry {error} is missing") from None
-    except (TypeError, ValueError, ShapeError) as error:
+    except RecursionError:
+        raise RobotError(name, "is nested too deeply") from None
+    except (TypeError, ValueError, OverflowError, ShapeError) as error:
         raise RobotError(name, f"cannot be read from data: {error}") from None
 
 

@@ -51,6 +51,8 @@ BROKEN = {
     "unit length": lambda d: d["axes"].__setitem__(0, [0, 0, 2]),
     "there is no joint 7": lambda d: d["spheres"][0].__setitem__("joint", 7),
     "cannot be read": lambda d: d.__setitem__("spheres", [3]),
+    "'name' is no text": lambda d: d.__setitem__("name", [d]),
+    "too large": lambda d: d["parents"].__setitem__(0, -(10**30)),
     "parents: expected shape": lambda d: d.__setitem__("parents", [[-1]]),
 }
 
@@ -61,3 +63,8 @@ def test_broken_data_are_refused(message):
     BROKEN[message](data)
     with pytest.raises(RobotError, match=message):
         Robot.from_dict(data)
+
+
+def test_what_is_no_mapping_is_refused():
+    with pytest.raises(RobotError, match="no mapping but a ndarray"):
+        Robot.from_dict(np.zeros(3))
