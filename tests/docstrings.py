@@ -204,3 +204,11 @@ class _Walk(ast.NodeVisitor):
             kin = self.house.bases(self.function.module, name) | {name}
             if not any(kin & caught for caught in self.caught):
                 self.found.add(name)
+
+
+def seen(check, sources: dict[str, str], name: str, line: str, instead: str):
+    """Rows about a module of the package: as it is, and with one line changed."""
+    assert line in sources[name]
+    few = {key: sources[key] for key in (name.rpartition(".")[0], name)}
+    changed = few | {name: few[name].replace(line, instead, 1)}
+    return tuple([r for r in check(House(s)) if name in r] for s in (few, changed))

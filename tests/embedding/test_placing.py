@@ -6,7 +6,6 @@ import json
 import os
 import signal
 import sys
-import warnings
 from pathlib import Path
 
 import pytest
@@ -16,6 +15,7 @@ from rrnn_opt.embedding import placing
 from rrnn_opt.embedding.package import with_manifest
 from rrnn_opt.embedding.placing import MANIFEST, UNFINISHED
 from rrnn_opt.errors import RrnnError
+from tests.child import ended, forked
 
 OLD = with_manifest("arm", {f"{n}": f"old {n}\n" for n in ("a.c", "a.h", "s/b.c")}, {})
 NEW = with_manifest("arm", {f"{n}": f"new {n}\n" for n in ("a.c", "a.h", "s/c.h")}, {})
@@ -28,24 +28,13 @@ def tree(folder):
 
 
 def in_a_child(work, kill_at=0, folder=Path("/")):
-    """How a forked process ends that is killed before a change of a file."""
-    with warnings.catch_warnings():  # a library's threads may be running
-        warnings.simplefilter("ignore", DeprecationWarning)
-        child = os.fork()
-    if child == 0:
-        status = 1
-        try:
-            signal.alarm(60)
-            sys.addaudithook(Counter(kill_at, folder))
-            work()
-            status = 0
-        finally:
-            os._exit(status)
-    return child
+    """A forked process that is killed before a change of a file."""
 
+    def watched():
+        sys.addaudithook(Counter(kill_at, folder))
+        work()
 
-def ended(child):
-    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    return forked(watched)
 
 
 def truthful(folder, mine):

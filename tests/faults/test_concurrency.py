@@ -3,10 +3,8 @@
 import json
 import multiprocessing
 import os
-import signal
 import subprocess
 import sys
-import warnings
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -15,6 +13,7 @@ import pytest
 
 from rrnn_opt.emit import build, cache, find_compiler, load
 from rrnn_opt.planning import Problem, plan
+from tests.child import ended, forked
 from tests.faults.conftest import HERE, PROBLEM
 from tests.faults.test_compilers import SOURCE, tool
 
@@ -150,20 +149,10 @@ def _report(pipe):
 def test_a_forked_process_plans_the_same():
     wanted = answer()
     here, there = multiprocessing.Pipe()
-    with warnings.catch_warnings():  # a library's threads may be running: the point
-        warnings.simplefilter("ignore", DeprecationWarning)
-        child = os.fork()
-    if child == 0:
-        status = 1
-        try:
-            signal.alarm(60)
-            _report(there)
-            status = 0
-        finally:
-            os._exit(status)
+    child = forked(lambda: _report(there))
     assert here.poll(60)
     assert here.recv() == wanted
-    assert os.waitpid(child, 0)[1] == 0
+    assert ended(child) == 0
 
 
 @pytest.mark.slow

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt import emit
 from rrnn_opt.errors import ProblemError, RrnnError
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.rollout.kernel import rollout_source
@@ -17,7 +16,6 @@ from rrnn_opt.planning.rollout.structs import RolloutStruct, rollout_struct
 from rrnn_opt.planning.search.cache import RobotKey
 from rrnn_opt.planning.search.feasibility import OpenGoals
 from rrnn_opt.planning.search.library import (
-    FLAGS,
     STATUS,
     Runtime,
     Search,
@@ -37,10 +35,8 @@ class RolloutRuntime(Runtime):
     """The compiled planner with the printed schemes' rollouts."""
 
     def __init__(self, robot: Robot, cell: MemoryCell, c1: float, c2: float) -> None:
-        self.robot = robot
         text = rollout_source(robot, cell, c1, c2)
-        self.built = emit.build(text, name=f"rollouts_{robot.nv}", flags=FLAGS)
-        self._library = emit.load(self.built)
+        self._load(robot, text, f"rollouts_{robot.nv}")
 
 
 @lru_cache(maxsize=16)

@@ -54,10 +54,11 @@ class Runtime:
     """The compiled planner of one robot; stateless, any number of searches."""
 
     def __init__(self, robot: Robot, cell: MemoryCell) -> None:
+        self._load(robot, source(robot, cell), f"planner_{robot.nv}")
+
+    def _load(self, robot: Robot, text: str, name: str) -> None:
         self.robot = robot
-        self.built = emit.build(
-            source(robot, cell), name=f"planner_{robot.nv}", flags=_flags()
-        )
+        self.built = emit.build(text, name=name, flags=_flags())
         self._library = emit.load(self.built)
 
     def function(self, name: str, result: Any, *arguments: Any) -> Any:

@@ -1,4 +1,8 @@
-"""A solver in a process of its own, which can be killed when its time is up."""
+"""A solver in a process of its own, which can be killed when its time is up.
+
+The checker starts its solvers by lines of its own (``check/claims/methods/smt.py``),
+on purpose: what looks for a proof and what judges it share nothing.
+"""
 
 from __future__ import annotations
 

@@ -6,6 +6,9 @@ Every value is a constant of its own with its defining equation; an operation
 with cases (fmin, fabs, comparisons) is defined by implications.  An angle is
 its sine and cosine, s^2 + c^2 = 1, and the addition theorems; which angle it is
 is forgotten, so that only more points are allowed.  Trust: "smt".
+
+Solvers are started here as the engines start theirs (``verification/engines``), in
+lines written apart on purpose: the trusted base shares nothing with what it judges.
 """
 
 from __future__ import annotations
