@@ -9,10 +9,10 @@ from rrnn_opt.embedding.options import Options
 from rrnn_opt.embedding.programme import Programme
 from rrnn_opt.embedding.render import declaration, pointer, template
 from rrnn_opt.embedding.render_watch import watch_words
-from rrnn_opt.embedding.split import split
 from rrnn_opt.emit import c_function, prologue
 from rrnn_opt.emit.active_set import FIELDS, active_set_source
 from rrnn_opt.emit.c99 import literal
+from rrnn_opt.symbolic.split import split
 from rrnn_opt.symbolic.tape import Tape
 
 _LARGEST = {"double": "DBL_MAX", "float": "FLT_MAX"}
@@ -158,7 +158,7 @@ def _steps(kernel: Kernel, options: Options) -> tuple[str, str]:
         call = f"    advance({', '.join(given + results)});\n"
         return c_function(kernel.tape, "advance", real=options.real, compact=True), call
     last = len(kernel.tape.inputs) - 1
-    setup, iterate = split(kernel.tape, frozenset({0, last}))
+    setup, iterate = split(kernel.tape, late=(0, last))
     texts = [
         c_function(setup, "prepare", real=options.real, compact=True),
         c_function(iterate, "advance", real=options.real, compact=True),

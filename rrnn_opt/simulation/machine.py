@@ -18,8 +18,8 @@ from rrnn_opt.robot import Kinematics
 from rrnn_opt.simulation.multiplier import integrated
 from rrnn_opt.simulation.record import Pace, Record, Told
 from rrnn_opt.simulation.signals import RAW, Signals, Surroundings
-from rrnn_opt.simulation.split import only, split
 from rrnn_opt.simulation.task import Array
+from rrnn_opt.symbolic.split import only, split
 from rrnn_opt.symbolic.symbol import Symbol
 from rrnn_opt.symbolic.tape import Tape
 
@@ -169,7 +169,7 @@ def _source(dynamics: Law, signals: Signals, values: list[ca.SX]) -> str:
         "NV": signals.raw["q"].numel(),
         "STATE": dynamics.state.size,
         "MEMORY": max(signals.raw["memory"].numel(), 1),
-        "COEFFICIENTS": max(sense.outputs[-1].size, 1),
+        "COEFFICIENTS": sense.outputs[-1].size,
         "LEVEL": LEVELS[_level(dynamics)],
     }
     loop = resources.files("rrnn_opt.simulation") / "runtime" / "loop.c"

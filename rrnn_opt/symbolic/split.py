@@ -1,4 +1,4 @@
-"""A function taken apart: what is computed once, and what with every step."""
+"""A tape cut in two: what is computed once, and what every step repeats."""
 
 from __future__ import annotations
 
@@ -7,17 +7,18 @@ from collections.abc import Collection, Iterable
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.symbolic.tape import Instruction, Port, Tape
 
-COEFFICIENTS = "coefficients"
+WORK = "work"
+"""Name of the last result of the first tape and last argument of the second."""
 
 
 def split(
-    tape: Tape, late: Collection[int], early_results: Collection[int]
+    tape: Tape, late: Collection[int], early_results: Collection[int] = ()
 ) -> tuple[Tape, Tape]:
     """Everything that does not depend on some arguments, and the rest.
 
     The first tape has the other arguments, and as results the named ones and
-    ``coefficients``, the values that the second one needs besides the late
-    arguments.  Running both does the same operations as running the whole.
+    ``WORK``, the values that the second one needs besides the late arguments (one
+    zero when it needs none).  Both do the same operations as the whole.
 
     Args:
         tape: the function.
@@ -82,7 +83,7 @@ def _first(
         Instruction("output", -1, (value,), None, (len(order), k))
         for k, value in enumerate(passed)
     ]
-    ports = [tape.outputs[k] for k in order] + [Port(COEFFICIENTS, (len(passed), 1))]
+    ports = [*(tape.outputs[k] for k in order), _port(passed)]
     return _tape(tape, [tape.inputs[k] for k in inputs], ports, values, results)
 
 
@@ -110,8 +111,12 @@ def _second(
         for s in then
         if s.slot
     ]
-    ports = [tape.inputs[k] for k in inputs] + [Port(COEFFICIENTS, (len(passed), 1))]
+    ports = [*(tape.inputs[k] for k in inputs), _port(passed)]
     return _tape(tape, ports, [tape.outputs[k] for k in order], values, results)
+
+
+def _port(passed: list[int]) -> Port:
+    return Port(WORK, (max(len(passed), 1), 1))
 
 
 def _moved(step: Instruction, where: dict[int, tuple[int, int]]) -> Instruction:

@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 
 from rrnn_opt.errors import RrnnError
-from rrnn_opt.simulation.split import COEFFICIENTS, only, split
 from rrnn_opt.symbolic.interpreter import evaluate
+from rrnn_opt.symbolic.split import WORK, only, split
 from rrnn_opt.symbolic.tape import Tape
 
 
@@ -20,7 +20,7 @@ def test_both_parts_together_are_the_whole():
     fn = whole()
     first, second = split(Tape.of(fn), late=(0, 2), early_results=(1,))
     assert [port.name for port in first.inputs] == ["p"]
-    assert [port.name for port in second.inputs] == ["x", "h", COEFFICIENTS]
+    assert [port.name for port in second.inputs] == ["x", "h", WORK]
     assert "sin" not in second.operations
     x, p, h = np.array([0.3, -0.7]), np.array([0.2, 1.1, 0.9]), np.array([0.05])
     early, passed = evaluate(first, [p])
