@@ -13,7 +13,7 @@ from rrnn_opt.formulation import Formulation
 from rrnn_opt.formulations.contacts import contacts_of
 from rrnn_opt.formulations.task import require_not_negative, require_positive
 from rrnn_opt.robot import Kinematics
-from rrnn_opt.robot.bound import reach
+from rrnn_opt.robot.reach import reach
 from rrnn_opt.symbolic import Symbol
 
 NEAREST = 1e-6

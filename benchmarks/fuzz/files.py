@@ -116,7 +116,7 @@ def urdf(rng: random.Random, folder: Path) -> str:
 
 def fitted(rng: random.Random, folder: Path) -> str:
     """A URDF whose meshes are damaged, to the fitting of spheres."""
-    from rrnn_opt.robot.spheres import fit_spheres
+    from rrnn_opt.robot.fitting.fit import fit_spheres
 
     text = xml.with_mesh(rng, bases.URDF)
     (folder / "robot.urdf").write_bytes(text)

@@ -164,7 +164,7 @@ def _batches() -> dict[str, Call]:
 def _robots_and_motions() -> dict[str, Call]:
     import rrnn_opt as rr
     from rrnn_opt import motion
-    from rrnn_opt.robot.restrict import restrict
+    from rrnn_opt.robot.loading.restrict import restrict
 
     arm = rr.Robot.builtin("planar3")
     timed = motion.retime([[0.0, 0.0, 0.0], [0.1, 0.2, 0.3]], arm.limits)

@@ -61,7 +61,7 @@ def run(args: argparse.Namespace, out: Output) -> int:
         UsageError: ``--out`` is a folder.
     """
     from rrnn_opt.report import write_text
-    from rrnn_opt.robot.spheres import fit_spheres
+    from rrnn_opt.robot.fitting.fit import fit_spheres
 
     target = Path(args.out)
     if target.is_dir():

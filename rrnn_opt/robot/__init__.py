@@ -3,7 +3,7 @@
 ``Robot`` is data (``RobotData``) and the ways to get it; ``Kinematics`` writes its
 forward kinematics in CasADi and is imported when first used, so that looking at a
 robot costs no CasADi.
-Only ``loading`` knows pinocchio, and only it reads URDF files.
+``loading`` alone reads URDF files; ``fitting`` lays spheres over their geometry.
 """
 
 from __future__ import annotations

@@ -69,7 +69,7 @@ class Robot(RobotData):
         Raises:
             RobotError: the file cannot be read, or has no such frame.
         """
-        from rrnn_opt.robot.loading import from_urdf
+        from rrnn_opt.robot.loading.loader import from_urdf
 
         data = from_urdf(path, tip=tip, tips=tips, spheres=spheres, locked=locked)
         return Robot(**vars(data))
@@ -85,6 +85,6 @@ class Robot(RobotData):
         Raises:
             RobotError: a joint of another type, or no frame ``tip``.
         """
-        from rrnn_opt.robot.loading import from_pinocchio
+        from rrnn_opt.robot.loading.loader import from_pinocchio
 
         return Robot(**vars(from_pinocchio(model, tip=tip)))

@@ -26,8 +26,8 @@ from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulations.signs import Band, entry_magnitudes
 from rrnn_opt.formulations.slide import tip_attraction
 from rrnn_opt.robot import Kinematics
-from rrnn_opt.robot.bound import reach
 from rrnn_opt.robot.motion_bound import motion_bound
+from rrnn_opt.robot.reach import reach
 from rrnn_opt.scene import Scene
 from rrnn_opt.simulation.obstacles import FAR, gaps
 from rrnn_opt.symbolic import Symbol

@@ -9,10 +9,10 @@ import pytest
 
 from rrnn_opt.planning import Problem, plan
 from rrnn_opt.robot import Robot
-from rrnn_opt.robot.geometry import Gap, collision_geometry
-from rrnn_opt.robot.sampled import Sampled
-from rrnn_opt.robot.spheres import fit_spheres
-from rrnn_opt.robot.urdf import read_urdf
+from rrnn_opt.robot.fitting.fit import fit_spheres
+from rrnn_opt.robot.fitting.geometry import Gap, collision_geometry
+from rrnn_opt.robot.fitting.sampled import Sampled
+from rrnn_opt.robot.loading.urdf import read_urdf
 from rrnn_opt.validation.studies.clutter import scenes
 
 TIPS = ("left_gripper", "right_gripper")

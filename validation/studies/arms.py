@@ -10,7 +10,7 @@ from pathlib import Path
 
 from rrnn_opt.report import write_text
 from rrnn_opt.robot import Robot
-from rrnn_opt.robot.spheres import fit_spheres
+from rrnn_opt.robot.fitting.fit import fit_spheres
 
 INFLATION, MOST = 0.02, 16
 """Wanted bulge of the spheres, m, and most spheres a mesh: the defaults."""

@@ -16,7 +16,7 @@ from rrnn_opt.planning.search.library import Search
 from rrnn_opt.planning.search.request import pack
 from rrnn_opt.planning.settings.random_rnn import RandomRnn
 from rrnn_opt.robot import Robot
-from rrnn_opt.robot.bound import reach_ball
+from rrnn_opt.robot.reach import reach_ball
 from rrnn_opt.scene.reading import scene_from_list
 
 Array = NDArray[np.float64]

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.robot.bound import ancestor_mask, reach
+from rrnn_opt.robot.reach import ancestor_mask, reach
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.tree import BASE, PRISMATIC
 

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from rrnn_opt.arguments import checked, require_parts
 from rrnn_opt.errors import ProblemError, RobotError
 from rrnn_opt.robot.cover import cover_box, cover_capsule, cover_cylinder
+from rrnn_opt.robot.fitting.solid_cover import cover_solid
 from rrnn_opt.robot.robot import Robot
-from rrnn_opt.robot.solid_cover import cover_solid
 from rrnn_opt.robot.tree import Sphere, frozen
 from rrnn_opt.scene import Box, Capsule, Cylinder, HalfSpace, Member, Mesh, Points
 from rrnn_opt.scene import fields as check

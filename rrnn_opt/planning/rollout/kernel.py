@@ -16,7 +16,7 @@ from rrnn_opt.planning.kernel.drives import tip_jacobian
 from rrnn_opt.planning.kernel.function import emitted_function
 from rrnn_opt.planning.kernel.source import source
 from rrnn_opt.robot import Kinematics, Robot
-from rrnn_opt.robot.bound import ancestor_mask
+from rrnn_opt.robot.reach import ancestor_mask
 
 RUNTIME = ("rollout.c", "rollout_schemes.c", "rollout_search.c", "rollout_api.c")
 

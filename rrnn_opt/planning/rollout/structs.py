@@ -10,7 +10,7 @@ import numpy as np
 from rrnn_opt.planning.settings.random_rnn import RandomRnn
 from rrnn_opt.planning.settings.rollout import PaperRnn, RolloutSettings, SingleRollout
 from rrnn_opt.robot import Robot
-from rrnn_opt.robot.bound import reach_ball
+from rrnn_opt.robot.reach import reach_ball
 
 _DOUBLES = (
     "epsilon",

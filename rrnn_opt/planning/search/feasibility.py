@@ -12,7 +12,7 @@ from rrnn_opt.planning.problem.goals import JointGoal, TipGoal
 from rrnn_opt.planning.problem.problem import Problem
 from rrnn_opt.planning.search.library import Search
 from rrnn_opt.planning.search.structs import Contact
-from rrnn_opt.robot.bound import reach_ball
+from rrnn_opt.robot.reach import reach_ball
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.tree import CONTINUOUS
 

@@ -12,7 +12,7 @@ from rrnn_opt.planning import PaperRnn, Problem, RandomRnn, plan
 from rrnn_opt.planning.rollout.library import (
     thinned,
 )
-from rrnn_opt.robot.bound import reach_ball
+from rrnn_opt.robot.reach import reach_ball
 from tests.planning.rollout.planar import document, opened, tip, walled
 
 

@@ -12,8 +12,8 @@ import rrnn_opt as rr
 from rrnn_opt.formulations import slide
 from rrnn_opt.planning import Problem, RandomRnn
 from rrnn_opt.planning.kernel.source import RUNTIME
-from rrnn_opt.robot.bound import ancestor_mask, reach
 from rrnn_opt.robot.motion_bound import motion_bound, travel
+from rrnn_opt.robot.reach import ancestor_mask, reach
 
 CONVERGED = RandomRnn(sweeps=20_000, passes=30)
 

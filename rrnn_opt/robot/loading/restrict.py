@@ -9,6 +9,7 @@ import numpy as np
 
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.data import RobotData
+from rrnn_opt.robot.loading.urdf import Mimic
 from rrnn_opt.robot.tree import (
     BASE,
     PRISMATIC,
@@ -19,7 +20,6 @@ from rrnn_opt.robot.tree import (
     frozen,
     indices,
 )
-from rrnn_opt.robot.urdf import Mimic
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,9 @@ from typing import Literal
 import casadi as ca
 import numpy as np
 
-from rrnn_opt.robot.bound import joint_range
-from rrnn_opt.robot.geometry import Gap, Geometry
+from rrnn_opt.robot.fitting.geometry import Gap, Geometry
 from rrnn_opt.robot.kinematics import Kinematics
+from rrnn_opt.robot.reach import joint_range
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.tree import PRISMATIC, Array
 

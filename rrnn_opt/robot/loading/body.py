@@ -18,11 +18,11 @@ import numpy as np
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot.cover import Cover, cover_box, cover_cylinder
 from rrnn_opt.robot.data import RobotData
+from rrnn_opt.robot.loading.urdf import Urdf
+from rrnn_opt.robot.loading.urdf_shapes import Primitive
 from rrnn_opt.robot.placement import apply, compose, shift, turn
 from rrnn_opt.robot.sphere_file import checked_pairs, placed_spheres, read_sphere_file
 from rrnn_opt.robot.tree import Array
-from rrnn_opt.robot.urdf import Urdf
-from rrnn_opt.robot.urdf_shapes import Primitive
 
 INFLATION = 0.01  # m, wanted of the covers of cylinders' sides and boxes
 

@@ -10,14 +10,15 @@ from scipy.spatial import ConvexHull
 
 from rrnn_opt.cli.main import main
 from rrnn_opt.errors import RobotError
-from rrnn_opt.robot import Kinematics, Robot, spheres
-from rrnn_opt.robot.apart import levers, never_touch
-from rrnn_opt.robot.ball import smallest_ball
-from rrnn_opt.robot.cover_proof import uncovered
-from rrnn_opt.robot.geometry import collision_geometry, load_mesh
-from rrnn_opt.robot.solid_cover import PADDING, Surface, cover_solid
-from rrnn_opt.robot.spheres import fit_spheres
-from rrnn_opt.robot.urdf import read_urdf
+from rrnn_opt.robot import Kinematics, Robot
+from rrnn_opt.robot.fitting import fit
+from rrnn_opt.robot.fitting.apart import levers, never_touch
+from rrnn_opt.robot.fitting.ball import smallest_ball
+from rrnn_opt.robot.fitting.cover_proof import uncovered
+from rrnn_opt.robot.fitting.fit import fit_spheres
+from rrnn_opt.robot.fitting.geometry import collision_geometry, load_mesh
+from rrnn_opt.robot.fitting.solid_cover import PADDING, Surface, cover_solid
+from rrnn_opt.robot.loading.urdf import read_urdf
 
 
 def outward(points):
@@ -180,8 +181,8 @@ def passing(tmp_path, height, axis="0 0 1"):
 
 def test_spheres_are_added_where_links_pass_each_other(tmp_path, monkeypatch):
     """The gap of 25 mm is less than the bulges: more spheres leave room for it."""
-    monkeypatch.setattr(spheres, "NEIGHBOURS", 0)
-    monkeypatch.setattr(spheres, "POSTURES", 60)
+    monkeypatch.setattr(fit, "NEIGHBOURS", 0)
+    monkeypatch.setattr(fit, "POSTURES", 60)
     path = passing(tmp_path, 0.235)
     coarse = fit_spheres(path, tip="far", inflation=0.02, most=4, extra=0)
     fine = fit_spheres(path, tip="far", inflation=0.02, most=4, extra=24)

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from rrnn_opt.errors import RobotError
-from rrnn_opt.robot.urdf import LARGEST, read_urdf
+from rrnn_opt.robot.loading.urdf import LARGEST, read_urdf
 
 TWO = '<link name="a"/><link name="b"/>'
 THREE = f'{TWO}<link name="c"/>'

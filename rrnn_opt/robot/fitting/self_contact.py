@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.robot.geometry import Gap, Geometry
-from rrnn_opt.robot.link_cover import CoveredLink
-from rrnn_opt.robot.sampled import Sampled
-from rrnn_opt.robot.solid_cover import Burden
+from rrnn_opt.robot.fitting.geometry import Gap, Geometry
+from rrnn_opt.robot.fitting.link_cover import CoveredLink
+from rrnn_opt.robot.fitting.sampled import Sampled
+from rrnn_opt.robot.fitting.solid_cover import Burden
 from rrnn_opt.robot.tree import Array
 
 Pair = tuple[str, str]

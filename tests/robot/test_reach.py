@@ -6,14 +6,14 @@ import pytest
 
 from rrnn_opt.errors import RobotError
 from rrnn_opt.robot import Frame, JointTree, Kinematics, Limits, Robot, Sphere
-from rrnn_opt.robot.bound import (
+from rrnn_opt.robot.builtin import BUILTIN
+from rrnn_opt.robot.reach import (
     ancestor_mask,
     joint_range,
     reach,
     reach_ball,
     tip_reach,
 )
-from rrnn_opt.robot.builtin import BUILTIN
 
 ROUNDING = 1e-14  # m, of the postures' own forward kinematics
 

@@ -8,19 +8,19 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-from rrnn_opt.robot.apart import never_touch, path_joints
-from rrnn_opt.robot.geometry import Geometry, collision_geometry
-from rrnn_opt.robot.link_cover import CoveredLink, LinkCover
-from rrnn_opt.robot.robot import Robot
-from rrnn_opt.robot.sampled import Sampled
-from rrnn_opt.robot.self_contact import (
+from rrnn_opt.robot.fitting.apart import never_touch, path_joints
+from rrnn_opt.robot.fitting.geometry import Geometry, collision_geometry
+from rrnn_opt.robot.fitting.link_cover import CoveredLink, LinkCover
+from rrnn_opt.robot.fitting.sampled import Sampled
+from rrnn_opt.robot.fitting.self_contact import (
     Pair,
     PairContact,
     SelfContact,
     refine,
     self_contact,
 )
-from rrnn_opt.robot.urdf import read_urdf
+from rrnn_opt.robot.loading.urdf import read_urdf
+from rrnn_opt.robot.robot import Robot
 
 POSTURES = 1000
 """Random postures in which pairs are looked at."""

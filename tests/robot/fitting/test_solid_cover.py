@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-from rrnn_opt.robot.solid_cover import Part, Surface, halves, solid_parts
+from rrnn_opt.robot.fitting.solid_cover import Part, Surface, halves, solid_parts
 
 Array = NDArray[np.float64]
 

@@ -8,9 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.robot.cover import cover_box, cover_cylinder
-from rrnn_opt.robot.cover_proof import uncovered
-from rrnn_opt.robot.geometry import Geometry
-from rrnn_opt.robot.solid_cover import Burden, Part, Surface, halves, solid_parts
+from rrnn_opt.robot.fitting.cover_proof import uncovered
+from rrnn_opt.robot.fitting.geometry import Geometry
+from rrnn_opt.robot.fitting.solid_cover import (
+    Burden,
+    Part,
+    Surface,
+    halves,
+    solid_parts,
+)
 from rrnn_opt.robot.tree import Array
 
 

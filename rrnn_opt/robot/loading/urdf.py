@@ -13,7 +13,7 @@ from pathlib import Path
 
 from rrnn_opt.errors import DocumentError, RobotError
 from rrnn_opt.files import read_text
-from rrnn_opt.robot.urdf_shapes import Primitive, collisions_of, floats
+from rrnn_opt.robot.loading.urdf_shapes import Primitive, collisions_of, floats
 
 LARGEST = 32 * 1024 * 1024  # bytes
 MOST = 1_000

@@ -18,8 +18,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.robot.ball import directions, outermost, smallest_ball
-from rrnn_opt.robot.polygons import cut
+from rrnn_opt.robot.fitting.ball import directions, outermost, smallest_ball
+from rrnn_opt.robot.fitting.polygons import cut
 from rrnn_opt.robot.tree import Array
 
 PADDING = 2e-4

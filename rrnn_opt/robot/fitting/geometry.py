@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.errors import RobotError
+from rrnn_opt.robot.loading.urdf import Urdf
+from rrnn_opt.robot.loading.urdf_shapes import SIZES, floats, read_primitive
 from rrnn_opt.robot.placement import compose, shift, turn
 from rrnn_opt.robot.tree import Array
-from rrnn_opt.robot.urdf import Urdf
-from rrnn_opt.robot.urdf_shapes import SIZES, floats, read_primitive
 
 SIDES = 32
 """Of the prism about a cylinder, which is 0.5 % wider."""

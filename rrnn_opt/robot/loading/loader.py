@@ -1,6 +1,6 @@
 """Robots from URDF files and pinocchio models; only here is pinocchio known.
 
-Limits that the file lacks are assumed (:mod:`rrnn_opt.robot.loaded_limits`), and the
+Limits that the file lacks are assumed (:mod:`rrnn_opt.robot.loading.limits`), and the
 robot's ``source`` says for which joints; replace ``robot.limits`` to use others.
 """
 
@@ -19,10 +19,11 @@ import numpy as np
 
 from rrnn_opt.arguments import checked
 from rrnn_opt.errors import RobotError
-from rrnn_opt.robot.body import collision_body
 from rrnn_opt.robot.data import RobotData
-from rrnn_opt.robot.loaded_limits import assumed, stated_limits
-from rrnn_opt.robot.restrict import restrict
+from rrnn_opt.robot.loading.body import collision_body
+from rrnn_opt.robot.loading.limits import assumed, stated_limits
+from rrnn_opt.robot.loading.restrict import restrict
+from rrnn_opt.robot.loading.urdf import Urdf, read_urdf
 from rrnn_opt.robot.tree import (
     BASE,
     CONTINUOUS,
@@ -34,7 +35,6 @@ from rrnn_opt.robot.tree import (
     frozen,
     indices,
 )
-from rrnn_opt.robot.urdf import Urdf, read_urdf
 
 UNIT = 1e-9  # how far the length of an axis may be from one
 _stderr = threading.Lock()

@@ -1,0 +1,1 @@
+"""Robots from URDF files and pinocchio models: read, restricted, given a body."""
