@@ -7,9 +7,9 @@ payload holds the parts of an identity over the rationals::
 
 g and h are the inequalities and equations of
 :mod:`rrnn_opt.check.claims.graph.semialgebraic`, b_j columns of polynomials, Q_j
-rational matrices without a negative eigenvalue, m_k any polynomials.  A margin is > 0
-for a strict goal, else 0.  For an equation p = 0 there are no squares, or the
-identity is that of -p^2.
+rational matrices without a negative eigenvalue, m_k any polynomials.  The margin is > 0
+for a strict goal and >= 0 for ">=0" and "<=0".  For an equation p = 0 it is 0, and
+there are no squares, or the identity is that of -p^2.
 
 Instead of an identity there may be ``{"split": s, "cases": [proof, proof]}``: the
 two cases of atom s, each with one more equation and inequality at the end of the
@@ -71,7 +71,7 @@ def _require(
         return
     target, strict = _target(setting.sense, goal, bool(proof["squares"]))
     margin = _rational(proof["margin"])
-    if margin < 0 or (strict and margin == 0):
+    if margin < 0 or (strict and margin == 0) or (setting.sense == "==0" and margin):
         raise UndecidedError(f"element {k}: the margin has the wrong sign")
     rest = target - setting.forms.ring.constant(margin)
     for square in proof["squares"]:

@@ -9,7 +9,7 @@ import casadi as ca
 import pytest
 
 from rrnn_opt.check.claims.certificate import check_certificate
-from rrnn_opt.claim import Claim, Range, Relation
+from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
 from rrnn_opt.errors import DocumentError
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.verification.document import certificate_document
@@ -74,6 +74,18 @@ def test_equations_need_no_squares_or_their_own():
     assert check(zero, "==0", proof(multipliers=[multiplier])).status == "PROVED"
     # p >= 0 does not show p = 0
     assert check(x**2, "==0", proof(square([["1"]], [THIS]))).status == "UNKNOWN"
+
+
+def test_an_equation_has_no_margin():
+    """x = 1/2 + (x - 1/2) is true, and shows x = 1/2, not x = 0."""
+    half = Hypothesis("H1", "x is a half", Relation(x - 0.5, "==0"))
+    false = Claim("T", "", "", (X,), Relation(x, "==0"), hypotheses=(half,))
+    given = proof(margin="1/2", multipliers=[{"equality": 0, "polynomial": ONE}])
+    payload = {"elements": [given]}
+    document = certificate_document(false, "sos", payload=payload, witness=POINT)
+    checked = check_certificate(document)
+    assert checked.status == "UNKNOWN"
+    assert "margin" in checked.reason
 
 
 def test_two_cases_of_an_atom():
