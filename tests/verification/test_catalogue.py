@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import rrnn_opt as rr
 from rrnn_opt.check.claims.certificate import check_certificate
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.verification import settle
 from rrnn_opt.verification.catalogue import (
     claims,
@@ -45,6 +48,14 @@ def test_so_it_is_with_obstacle_rows():
     assert wrong.status == "UNKNOWN"
 
 
+def test_clearances_are_kept_at_the_rate_of_the_rows():
+    kin = kinematics("planar3")
+    form = rr.formulations.clearance_rows(kin, contacts=(0, 2), gamma=3.0, safe=0.1)
+    proof = clearance_is_kept(form, kin, (0, 2))
+    assert "-3 (d - 0.1)" in proof.claim.statement
+    assert settle(proof).status == "HOLDS_UNDER"
+
+
 def test_so_it_is_where_the_folded_hessian_is_rounded():
     form = rr.formulations.infinity_norm(kinematics("planar3"))
     assert settle(equilibrium_is_optimum(form)).status == "PROVED"
@@ -79,8 +90,25 @@ def test_limits_are_kept_on_every_robot(name):
     verdict = settle(limits_are_kept(rr.formulations.minimum_velocity(kin), kin))
     assert verdict.status == "HOLDS_UNDER"
     assert verdict.assumptions[0].endswith("q(0) lies within the limits")
-    careless = rr.formulations.minimum_velocity(kin, c1=0.6, c2=0.6)
+    faster = rr.formulations.minimum_velocity(kin, c1=2.0, c2=0.6)
+    assert settle(limits_are_kept(faster, kin)).status == "HOLDS_UNDER"
+
+
+@pytest.mark.parametrize("side", ["lower", "upper"])
+def test_bounds_that_lead_out_of_the_limits_are_refuted(side):
+    kin = kinematics("planar3")
+    form = rr.formulations.minimum_velocity(kin)
+    out = {"lower": -1e-3, "upper": 1e-3}[side]
+    careless = replace(form, **{side: getattr(form, side) + out})
     assert settle(limits_are_kept(careless, kin)).status == "REFUTED"
+
+
+def test_claims_speak_of_the_scheme_as_it_was_made():
+    kin, network = kinematics("planar3"), rr.networks.PrimalDual()
+    other = rr.formulations.position_feedback(kin, c1=2.0)
+    assert "reduced_law_decreases" not in by_id(claims(other, network, kin))
+    with pytest.raises(RrnnError, match="other kinematics"):
+        claims(other, network, kinematics("planar3"))
 
 
 def test_exact_values_agree_with_casadi():

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import casadi as ca
+
 from rrnn_opt.arguments import checked
 from rrnn_opt.claim import Claim
 from rrnn_opt.decay import DecayClaim
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.formulation import Formulation
+from rrnn_opt.formulations import position_feedback
 from rrnn_opt.networks import Network, PrimalDual
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.verification.case import ClaimCase
@@ -47,24 +51,38 @@ def claims(
     """What is claimed of a scheme, solved by a network, on a robot.
 
     A claim that has no meaning for the scheme (no rows, no bounds, no contacts)
-    is left out.  Those about rest points and decay are of the network (6).
+    is left out.  Those about rest points and decay are of the network (6);
+    ``reduced_law_decreases`` is of ``position_feedback`` with its default settings.
 
     Args:
         form: the scheme.
         network: the rule that solves it.
-        kin: kinematics of the robot.
+        kin: kinematics that the scheme was made with.
         contacts: spheres of the scheme's contacts, where it has some.
+
+    Raises:
+        RrnnError: the scheme was made with other kinematics.
     """
+    _require_own(form, kin)
     found: list[Claim | Proof | DecayClaim | None] = []
     if isinstance(network, PrimalDual) and not network.whiten:
         found += [equilibrium_is_optimum(form), _energy(form)]
         found += [exponential_rate(form, kin), euler_step(form, network, kin)]
     found.append(projection_law(form.decision.size) if form.qp.bounded else None)
-    if form.name == "position_feedback":
+    if form.fingerprint == position_feedback(kin).fingerprint:
         found.append(reduced_law_decreases(kin))
     found += [limits_are_kept(form, kin), clearance_is_kept(form, kin, contacts)]
     found.append(memory_stays_bounded())
     return [ClaimCase(statement) for statement in found if statement is not None]
+
+
+def _require_own(form: Formulation, kin: Kinematics) -> None:
+    for symbol in form.parameters:
+        if symbol.name == "q" and not ca.is_equal(symbol.sx, kin.q):
+            raise RrnnError(
+                f"{form.name} was made with other kinematics than {kin.robot.name}'s "
+                "given here: make the scheme and its claims with one Kinematics"
+            )
 
 
 def _energy(form: Formulation) -> Proof | None:

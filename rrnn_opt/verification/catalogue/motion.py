@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from inspect import signature
 from math import isfinite
 
 import casadi as ca
 
 from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
 from rrnn_opt.formulation import Formulation
-from rrnn_opt.formulations import clearance_rows
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.robot import Kinematics, Limits
@@ -107,11 +105,12 @@ def _limits(q: Symbol, limits: Limits) -> Range:
 
 
 def limits_are_kept(form: Formulation, kin: Kinematics) -> Proof | None:
-    """The bounds of a scheme hold 0 and lie within (10), q inside its limits.
+    """The bounds of a scheme hold 0, and at a limit they do not lead out of it.
 
-        -c (q - q-) <= lower <= 0 <= upper <= c (q+ - q)
+        lower <= 0 <= upper                 for q within its limits
+        lower_i >= 0  at q_i = q-_i,        upper_i <= 0  at q_i = q+_i
 
-    so that q' in the box cannot cross a limit.
+    which is Nagumo's condition for every q' within the bounds.
 
     Args:
         form: a scheme in joint velocities whose parameters hold q.
@@ -127,10 +126,8 @@ def limits_are_kept(form: Formulation, kin: Kinematics) -> Proof | None:
     low, high = form.lower[:n], form.upper[:n]
     rows = [-low, high]
     for i in range(n):
-        above = q.sx[i] - float(limits.lower[i])
-        below = float(limits.upper[i]) - q.sx[i]
-        rows += [low[i] + GAINS["c1"] * above] if isfinite(limits.lower[i]) else []
-        rows += [GAINS["c2"] * below - high[i]] if isfinite(limits.upper[i]) else []
+        ends = ((low[i], float(limits.lower[i])), (-high[i], float(limits.upper[i])))
+        rows += [ca.substitute(x, q.sx[i], at) for x, at in ends if isfinite(at)]
     others = [
         p
         for p in form.parameters
@@ -155,10 +152,11 @@ def clearance_is_kept(
 
         n'd/dt centre(q) + gamma (d - d_safe) >= 0
 
-    with the velocity of the sphere's centre differentiated automatically.
+    with the velocity of the sphere's centre differentiated automatically, gamma
+    and d_safe being those of the rows.
 
     Args:
-        form: made by ``clearance_rows`` with its own gamma and d_safe.
+        form: made by ``clearance_rows``.
         kin: kinematics of the robot.
         contacts: index of the sphere in each contact.
     """
@@ -171,14 +169,16 @@ def clearance_is_kept(
         ca.dot(n.sx[:, k], ca.jtimes(centres[:, c], q.sx, form.decision.sx))
         for k, c in enumerate(contacts)
     ]
-    settings = signature(clearance_rows).parameters
-    gamma, safe = (settings[name].default for name in ("gamma", "safe"))
+    # a row is least - n'J u <= 0, with least = -gamma (d - d_safe)
+    still = ca.SX.zeros(*form.decision.shape)
+    least = ca.substitute(form.inequalities, form.decision.sx, still)
+    gamma, safe = _line(least[0], d.sx[0])
     claim = Claim(
         id="clearance_is_kept",
         source="eq. (11)-(12), repaired",
-        statement="d' >= -gamma (d - d_safe) for every contact",
+        statement=f"d' >= -{gamma:g} (d - {safe:g}) for every contact",
         variables=(form.decision, q, n, d),
-        goal=Relation(ca.vertcat(*rates) + gamma * (d.sx - safe), ">=0"),
+        goal=Relation(ca.vertcat(*rates) - least, ">=0"),
         hypotheses=(
             Hypothesis("H1", "the rows hold", Relation(form.inequalities, "<=0")),
             Hypothesis("A1", "obstacles stand still, normals are theirs", added=True),
@@ -188,6 +188,12 @@ def clearance_is_kept(
     )
     terms = tuple((Given(0, k),) for k in range(len(contacts)))
     return Proof(claim, (), terms, (NAGUMO,))
+
+
+def _line(least: ca.SX, d: ca.SX) -> tuple[float, float]:
+    """Gamma and d_safe of ``least = -gamma (d - d_safe)``, for the reader."""
+    slope = -float(ca.jacobian(least, d))
+    return slope, float(ca.substitute(least, d, 0)) / slope
 
 
 def memory_stays_bounded(cell: MemoryCell | None = None) -> Proof:

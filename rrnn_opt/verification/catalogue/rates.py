@@ -16,19 +16,22 @@ from rrnn_opt.networks import Network
 from rrnn_opt.robot import Kinematics
 
 Array = NDArray[np.float64]
-HALF_WIDTH = 0.05
-"""Half the width of the cell of postures, rad or m."""
+STEP = 0.05
+"""How far a joint is moved from the bent posture, rad or m."""
 BITS = 20
+"""Matrices and rates are rounded to multiples of 2^-20."""
 FREE = Hypothesis("A1", "no bound is active", added=True)
+RESTS = Hypothesis("A2", "the optimum stands still while J moves", added=True)
 
 
 def exponential_rate(form: Formulation, kin: Kinematics) -> DecayClaim | None:
-    """(6) decays at a quarter of its slowest mode, whatever it meets in a cell.
+    """(6) decays at a quarter of its slowest mode in the hull of some Jacobians.
 
-    In the time unit epsilon, with no bound active, the distance z from the
-    optimum obeys ``z' = -[[P, -A'], [A, 0]] z``.  A(q) is taken at the middle
-    of the joint ranges and at one step along each joint in both directions; the
-    claim is about everything in the hull of these matrices, moving or not.
+    In the time unit epsilon, with no bound active and an optimum that stands
+    still, the distance z from the optimum obeys ``z' = -[[P, -A'], [A, 0]] z``.
+    A(q) is taken at a bent posture and at one step from it along each joint in
+    both directions.  The claim is about every A(t) in the hull of these
+    matrices; A at a posture between them need not lie in it.
 
     Args:
         form: with equality rows and without inequality rows.
@@ -47,11 +50,12 @@ def exponential_rate(form: Formulation, kin: Kinematics) -> DecayClaim | None:
     return DecayClaim(
         id="exponential_rate",
         source="eq. (6)",
-        statement=f"the network of {form.name} decays at {float(rate):.3g}/epsilon in "
-        f"a cell of {len(matrices)} postures within {HALF_WIDTH} of the middle",
+        statement=f"the network of {form.name} decays at {float(rate):.3g}/epsilon "
+        f"for every J in the hull of those at {len(matrices)} postures, "
+        f"{STEP} around a bent one",
         vertices=tuple(_exact(a) for a in matrices),
         rate=rate,
-        hypotheses=(FREE,),
+        hypotheses=(FREE, RESTS),
         order="second-order",
         jacobian="moving",
     )
@@ -68,14 +72,13 @@ def euler_step(
         kin: kinematics of the robot.
 
     Returns:
-        The claim at the middle posture; None where no step is promised.
+        The claim at the bent posture; None where no step is promised.
     """
     matrices, epsilon = _cell(form, kin), getattr(network, "epsilon", None)
     if matrices is None or epsilon is None:
         return None
     values = {p.name: np.zeros(p.shape) for p in form.parameters}
-    values["q"] = _middle(kin).reshape(-1, 1)
-    step = network.euler_bound(form, **{k: np.squeeze(v) for k, v in values.items()})
+    step = network.euler_bound(form, **values | {"q": _bent(kin)})
     ratio = Fraction(int(step / epsilon / 2 * 2**BITS), 2**BITS)
     first = _exact(matrices[0])
     moved = tuple(
@@ -90,7 +93,7 @@ def euler_step(
         id="euler_step",
         source="eq. (6)",
         statement=f"Euler steps of {float(ratio):.3g} epsilon contract by "
-        f"{float(rate):.6g} a step at the middle posture",
+        f"{float(rate):.6g} a step at a bent posture",
         vertices=(moved,),
         rate=rate,
         discrete=True,
@@ -117,16 +120,16 @@ def _cell(form: Formulation, kin: Kinematics) -> list[Array] | None:
 
 
 def _postures(kin: Kinematics) -> Sequence[Array]:
-    middle = _middle(kin)
-    steps = HALF_WIDTH * np.vstack([np.eye(len(middle)), -np.eye(len(middle))])
-    return [middle, *(middle + step for step in steps)]
+    bent = _bent(kin)
+    steps = STEP * np.vstack([np.eye(len(bent)), -np.eye(len(bent))])
+    return [bent, *(bent + step for step in steps)]
 
 
-def _middle(kin: Kinematics) -> Array:
-    """A bent posture: a little above the middle of each range."""
+def _bent(kin: Kinematics) -> Array:
+    """Each joint at 65 % of its range, as far as that lies within +-2 rad or m."""
     limits = kin.robot.limits
     low, high = np.maximum(limits.lower, -2.0), np.minimum(limits.upper, 2.0)
-    return np.asarray(low + 0.65 * (high - low), dtype=np.float64)
+    return np.clip(low + 0.65 * (high - low), limits.lower, limits.upper)
 
 
 def _exact(matrix: Array) -> tuple[tuple[Fraction, ...], ...]:
