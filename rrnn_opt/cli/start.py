@@ -20,6 +20,18 @@ def fill_streams() -> None:
             setattr(sys, name, stream)
 
 
+def settle_interrupt() -> None:
+    """Let the exit status of an interrupted command stand.
+
+    Where code that a C library ran was interrupted, CPython ends the process by SIGINT
+    even if the interrupt was handled (``unhandled_keyboard_interrupt``); it forgets
+    that when other such code comes to its end.
+    """
+    import ctypes
+
+    ctypes.pythonapi.PyRun_SimpleString(b"pass")
+
+
 def main() -> int:
     """Load and run the command line; the exit status."""
     fill_streams()
@@ -35,6 +47,8 @@ def main() -> int:
         print("rrnn: interrupted", file=sys.stderr)
         code = 130
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if code > 128:
+        settle_interrupt()
     return code
 
 

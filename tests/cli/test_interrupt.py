@@ -118,6 +118,23 @@ def test_an_interrupt_while_the_program_loads_leaves_no_traceback(options):
     assert said == "rrnn: interrupted\n"
 
 
+def test_the_status_stands_where_a_c_library_was_interrupted(tmp_path):
+    (tmp_path / "started.py").write_text(
+        "import ctypes, sys\n"
+        "from rrnn_opt.cli import main, start\n"
+        "def run():\n"
+        "    ctypes.pythonapi.PyRun_SimpleString(b'raise KeyboardInterrupt')\n"
+        "    return 143\n"
+        "main.main = run\n"
+        "sys.exit(start.main())\n"
+    )
+    words = [sys.executable, "-m", "started"]  # only with -m does CPython ask again
+    done = subprocess.run(
+        words, capture_output=True, check=False, timeout=30, cwd=tmp_path
+    )
+    assert done.returncode == 143
+
+
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
 def test_other_requests_to_end_are_noticed_too(capfd, monkeypatch, name):
     number = getattr(signal, name)
