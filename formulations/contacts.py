@@ -54,7 +54,7 @@ def contacts_of(kin: Kinematics, spheres: Sequence[int]) -> Contacts:
     meaning = "outward unit normals of the obstacles"
     normals = Symbol.matrix("normals", (3, k), "1", meaning)
     gaps = Symbol.vector("clearances", k, "m", "gaps between spheres and obstacles")
-    jacobians = tuple(_jacobian(kin, index) for index in spheres)
+    jacobians = tuple(centre_jacobian(kin, index) for index in spheres)
     return Contacts(jacobians, normals, gaps, (normals, gaps) if len(spheres) else ())
 
 
@@ -78,8 +78,13 @@ def clearance_rows(contacts: Contacts, u: ca.SX, *, gamma: float, safe: float) -
     return -(contacts.gradients @ u) - gamma * (contacts.clearances.sx - safe)
 
 
-def _jacobian(kin: Kinematics, index: int) -> ca.SX:
-    """Jacobian of a sphere's centre, (3, nv)."""
+def centre_jacobian(kin: Kinematics, index: int) -> ca.SX:
+    """Jacobian ``J_i = do_i/dq`` of a sphere's centre o_i, (3, nv), m/rad.
+
+    Args:
+        kin: kinematics of the robot.
+        index: of the sphere.
+    """
     tree = kin.robot.tree
     moving = tree.ancestors(kin.robot.spheres[index].joint)
     mask = ca.SX([float(j in moving) for j in range(tree.nj)])

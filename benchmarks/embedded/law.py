@@ -22,7 +22,7 @@ import qpsolvers
 
 import rrnn_opt as rr
 from rrnn_opt.dynamics import Euler
-from rrnn_opt.formulations.contacts import _jacobian
+from rrnn_opt.formulations.contacts import centre_jacobian
 from rrnn_opt.formulations.limits import velocity_bounds
 from rrnn_opt.symbolic import Symbol
 
@@ -65,7 +65,9 @@ def formulation() -> rr.Formulation:
         gap = kin.sphere_centres()[:, index] - ball.sx[:3]
         length = ca.norm_2(gap)
         free = length - ball.sx[3] - float(kin.robot.spheres[index].radius) - SAFE
-        rows.append(-((gap / length).T @ _jacobian(kin, index)) @ u.sx - GAMMA * free)
+        rows.append(
+            -((gap / length).T @ centre_jacobian(kin, index)) @ u.sx - GAMMA * free
+        )
     return rr.Formulation(
         "budget",
         u,

@@ -16,7 +16,7 @@ from benchmarks.record import Benchmark, Row
 from rrnn_opt.simulation import Control, Curve, Noise, Task
 from rrnn_opt.simulation.prepare import prepared
 from rrnn_opt.simulation.reference import reference
-from rrnn_opt.simulation.simulate import _pace, _told
+from rrnn_opt.simulation.simulate import inputs_of, pace_of
 
 DT, EPSILON = 0.005, 0.01
 STEPS = 200_000
@@ -37,17 +37,17 @@ def compiled(robot, what, repeats=7):
     loop = prepared("position_feedback", robot, what)
     t = DT * np.arange(what.steps + 1.0)
     start = np.asarray(loop.tip(what.q0)).ravel()
-    told = _told(what, reference(what.curve, start, t), robot.nv, loop.level)
-    pace = _pace(loop, what, told)
+    inputs = inputs_of(what, reference(what.curve, start, t), robot.nv, loop.level)
+    pace = pace_of(loop, what, inputs)
     times = []
     for _ in range(repeats):
         begin = time.perf_counter()
-        record = loop.run(pace, what.q0, told)
+        record = loop.run(pace, what.q0, inputs)
         times.append(time.perf_counter() - begin)
-    return min(times), record.q[-1], told
+    return min(times), record.q[-1], inputs
 
 
-def interpreted(robot, what, told):
+def interpreted(robot, what, inputs):
     """The same loop, one CasADi call a step."""
     kin = rr.Kinematics(robot)
     form = rr.formulations.position_feedback(kin, epsilon=EPSILON)
@@ -56,12 +56,12 @@ def interpreted(robot, what, told):
     q, u = what.q0.copy(), np.zeros(robot.nv)
     begin = time.perf_counter()
     for k in range(what.steps):
-        u = np.asarray(step(u, q, told.rd[k])[0]).ravel()
-        q = q + DT * (u + told.velocity_noise[k])
+        u = np.asarray(step(u, q, inputs.rd[k])[0]).ravel()
+        q = q + DT * (u + inputs.velocity_noise[k])
     return time.perf_counter() - begin, q
 
 
-def by_numpy(robot, what, told):
+def by_numpy(robot, what, inputs):
     """The same loop by hand, on numpy arrays."""
     limits, tree = robot.limits, robot.tree
     placements = [np.asarray(m) for m in tree.placements]
@@ -80,9 +80,9 @@ def by_numpy(robot, what, told):
         J = np.cross(np.array(axes), point - np.array(origins)).T
         low = np.maximum(-0.5 * (q - limits.lower), -limits.velocity)
         high = np.minimum(-0.5 * (q - limits.upper), limits.velocity)
-        drive = np.clip(J.T @ (told.rd[k] - point) / EPSILON, low, high)
+        drive = np.clip(J.T @ (inputs.rd[k] - point) / EPSILON, low, high)
         u = u + DT / EPSILON * (drive - u)
-        q = q + DT * (u + told.velocity_noise[k])
+        q = q + DT * (u + inputs.velocity_noise[k])
     return time.perf_counter() - begin, q
 
 
@@ -100,9 +100,9 @@ def run(benchmark: Benchmark) -> None:
     seconds, _, _ = compiled(robot, task(STEPS))
     rate = STEPS / seconds
     short = task(SLOW_STEPS)
-    _, q, told = compiled(robot, short, repeats=1)
-    casadi_s, casadi_q = interpreted(robot, short, told)
-    numpy_s, numpy_q = by_numpy(robot, short, told)
+    _, q, inputs = compiled(robot, short, repeats=1)
+    casadi_s, casadi_q = interpreted(robot, short, inputs)
+    numpy_s, numpy_q = by_numpy(robot, short, inputs)
     np.testing.assert_allclose(casadi_q, q, atol=1e-9)
     np.testing.assert_allclose(numpy_q, q, atol=1e-9)
     rates = {"CasADi's interpreter": casadi_s, "numpy": numpy_s}

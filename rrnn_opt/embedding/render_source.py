@@ -8,7 +8,7 @@ from rrnn_opt.embedding.kernel import Kernel
 from rrnn_opt.embedding.options import Options
 from rrnn_opt.embedding.programme import Programme
 from rrnn_opt.embedding.render import declaration, pointer, template
-from rrnn_opt.embedding.render_watch import watch_words
+from rrnn_opt.embedding.render_monitor import monitor_words
 from rrnn_opt.emit import c_function, prologue
 from rrnn_opt.emit.active_set import FIELDS, active_set_source
 from rrnn_opt.emit.c99 import literal
@@ -87,7 +87,7 @@ def source(
         "source.c",
         words
         | _checks(kernel, words, longest)
-        | watch_words(kernel, words)
+        | monitor_words(kernel, words)
         | {
             "kernels": kernels,
             "run_steps": run,

@@ -16,7 +16,7 @@ from rrnn_opt.dynamics import DiscreteDynamics, Euler, NeuralDynamics
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.simulation.multiplier import integrated
-from rrnn_opt.simulation.record import Pace, Record, Told
+from rrnn_opt.simulation.record import Inputs, Pace, Record
 from rrnn_opt.simulation.signals import RAW, Signals, Surroundings
 from rrnn_opt.simulation.task import Array
 from rrnn_opt.symbolic.split import only, split
@@ -71,26 +71,26 @@ class Machine:
     tip: ca.Function
     _entry: Callable[..., int]
 
-    def told(self, pace: Pace, q0: Array, told: Told) -> list[Array]:
+    def first_parameters(self, pace: Pace, q0: Array, inputs: Inputs) -> list[Array]:
         """Parameters of the network in the first period."""
         settings = [pace.dt, pace.kappa]
         raw: list[Any] = [q0, np.zeros(q0.size), self.memory(q0)]
-        raw += [told.rd[0], told.rd_dot[0], told.rd_ddot[0], settings]
+        raw += [inputs.rd[0], inputs.rd_dot[0], inputs.rd_ddot[0], settings]
         return [np.asarray(p, dtype=np.float64) for p in self.parameters.call(raw)]
 
-    def run(self, pace: Pace, q0: Array, told: Told) -> Record:
+    def run(self, pace: Pace, q0: Array, inputs: Inputs) -> Record:
         """Run the whole task in C.
 
         Args:
             pace: how the loop goes.
             q0: (nv,) start, at rest.
-            told: reference and noise.
+            inputs: reference and noise.
         """
-        rows, nv = len(told.rd), self.kin.robot.nv
+        rows, nv = len(inputs.rd), self.kin.robot.nv
         data = {"settings": np.array([pace.dt, pace.kappa])}
         for name in _GIVEN[1:]:
-            data[name] = np.ascontiguousarray(getattr(told, name), np.float64)
-        start = self.begin.call(self.told(pace, q0, told))[0]
+            data[name] = np.ascontiguousarray(getattr(inputs, name), np.float64)
+        start = self.begin.call(self.first_parameters(pace, q0, inputs))[0]
         data["state"] = np.array(start, dtype=np.float64).ravel()
         data["memory"] = np.append(np.array(self.memory(q0)).ravel(), 0.0)
         data |= {name: np.zeros((rows, nv)) for name in ("q", "u", "v", "qd")}

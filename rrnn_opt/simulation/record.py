@@ -28,7 +28,7 @@ class Pace:
 
 
 @dataclass(frozen=True, eq=False)
-class Told:
+class Inputs:
     """What a run is given, one row a control period.
 
     Attributes:

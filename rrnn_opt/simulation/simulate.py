@@ -15,7 +15,7 @@ from rrnn_opt.networks.step_size import settling_step
 from rrnn_opt.robot import Robot
 from rrnn_opt.simulation.machine import Machine
 from rrnn_opt.simulation.prepare import Network, Scheme, prepared
-from rrnn_opt.simulation.record import Pace, Record, Told
+from rrnn_opt.simulation.record import Inputs, Pace, Record
 from rrnn_opt.simulation.reference import reference
 from rrnn_opt.simulation.result import SimulationResult
 from rrnn_opt.simulation.task import Array, Task
@@ -72,9 +72,9 @@ def simulate(
     t: Array = task.control.dt * np.arange(task.steps + 1, dtype=np.float64)
     tip = np.asarray(loop.tip(task.q0), dtype=np.float64).ravel()
     values = reference(task.curve, tip, t)
-    told = _told(task, values, robot.nv, loop.level)
-    pace = _pace(loop, task, told)
-    record, h = _run(loop, pace, task.q0, told)
+    inputs = inputs_of(task, values, robot.nv, loop.level)
+    pace = pace_of(loop, task, inputs)
+    record, h = _run(loop, pace, task.q0, inputs)
     return SimulationResult(
         scheme=loop.dynamics.name,
         robot=robot,
@@ -87,11 +87,11 @@ def simulate(
     )
 
 
-def _pace(loop: Machine, task: Task, told: Told) -> Pace:
+def pace_of(loop: Machine, task: Task, inputs: Inputs) -> Pace:
     """Step and number of steps of the network; see ``settling_step``."""
     control = task.control
     still = Pace(control.dt, control.kappa, 1.0, 1, -1.0)
-    h = _step(loop, loop.told(still, task.q0, told))
+    h = _step(loop, loop.first_parameters(still, task.q0, inputs))
     if control.law == "literal":
         most = control.steps or math.ceil(_FINE * control.dt / h * (1.0 - 1e-9))
         return replace(still, h=control.dt / most, most=most)
@@ -107,7 +107,9 @@ def _step(loop: Machine, parameters: list[Array]) -> float:
     return min(settling_step(dynamics, start, parameters), dynamics.longest_step)
 
 
-def _told(task: Task, values: tuple[Array, Array, Array], nv: int, level: str) -> Told:
+def inputs_of(
+    task: Task, values: tuple[Array, Array, Array], nv: int, level: str
+) -> Inputs:
     """The reference, and the noise where it enters."""
     noise, dt = task.noise, task.control.dt
     rd, rd_dot, rd_ddot = values
@@ -117,16 +119,16 @@ def _told(task: Task, values: tuple[Array, Array, Array], nv: int, level: str) -
         draws = noise.sigma * rng.standard_normal((rows, 3))
         rd_dot = rd_dot + draws
         rd_ddot = rd_ddot + np.diff(draws, axis=0, prepend=0.0) / dt
-        return Told(rd, rd_dot, rd_ddot, joint, force)
+        return Inputs(rd, rd_dot, rd_ddot, joint, force)
     draws = noise.sigma * rng.standard_normal((rows, nv))
     if noise.enters == "joint_velocity":
-        return Told(rd, rd_dot, rd_ddot, draws, force)
+        return Inputs(rd, rd_dot, rd_ddot, draws, force)
     if level == "acceleration":
-        return Told(rd, rd_dot, rd_ddot, joint, draws)
-    return Told(rd, rd_dot, rd_ddot, dt * np.cumsum(draws, axis=0), force)
+        return Inputs(rd, rd_dot, rd_ddot, joint, draws)
+    return Inputs(rd, rd_dot, rd_ddot, dt * np.cumsum(draws, axis=0), force)
 
 
-def _run(loop: Machine, pace: Pace, q0: Array, told: Told) -> tuple[Record, float]:
+def _run(loop: Machine, pace: Pace, q0: Array, inputs: Inputs) -> tuple[Record, float]:
     """Run; under the reduced law a step that is too long is shortened.
 
     It is when the run diverges, or when the network does not come to rest
@@ -135,7 +137,7 @@ def _run(loop: Machine, pace: Pace, q0: Array, told: Told) -> tuple[Record, floa
     """
     best: tuple[Record, float] | None = None
     for _ in range(_ATTEMPTS):
-        record = loop.run(pace, q0, told)
+        record = loop.run(pace, q0, inputs)
         if np.isfinite(record.command).all() and np.isfinite(record.q).all():
             if best is not None and best[0].unsettled <= record.unsettled:
                 return best

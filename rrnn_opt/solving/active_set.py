@@ -14,7 +14,7 @@ import numpy as np
 from rrnn_opt.arguments import checked
 from rrnn_opt.emit import build, load, prologue
 from rrnn_opt.emit.active_set import FIELDS, Factor, active_set_source
-from rrnn_opt.solving.backends import Told, solution
+from rrnn_opt.solving.backends import SolverReport, solution
 from rrnn_opt.solving.dense_session import DenseSession, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
@@ -145,5 +145,5 @@ class ActiveSet(DenseSession):
             raw.duals if found else None,
             tolerance=self.tolerance,
             time_s=spent,
-            told=Told(iterations=raw.steps, claims=found),
+            report=SolverReport(iterations=raw.steps, claims=found),
         )

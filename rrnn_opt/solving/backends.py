@@ -43,7 +43,7 @@ TIGHT: Mapping[str, Mapping[str, Any]] = {
 
 
 @dataclass(frozen=True)
-class Told:
+class SolverReport:
     """What a solver says of its own work.
 
     Attributes:
@@ -64,7 +64,7 @@ def solution(
     *,
     tolerance: float,
     time_s: float,
-    told: Told | None = None,
+    report: SolverReport | None = None,
 ) -> Solution:
     """An answer with our judgement; a point only where the judgement gives one.
 
@@ -74,9 +74,9 @@ def solution(
         duals: its multipliers, or None.
         tolerance: on the KKT residual.
         time_s: what it took, s.
-        told: what the solver says of itself; read by nobody's verdict.
+        report: what the solver says of itself; read by nobody's verdict.
     """
-    told = told or Told()
+    report = report or SolverReport()
     status, residual = judge(problem, x, duals, tolerance=tolerance)
     relative = relative_residual(problem, x, duals)
     point, multipliers = None, None
@@ -91,9 +91,9 @@ def solution(
         residual,
         time_s,
         relative=relative,
-        inner_s=told.inner_s,
-        iterations=told.iterations,
-        claims=told.claims,
+        inner_s=report.inner_s,
+        iterations=report.iterations,
+        claims=report.claims,
         handed=handed(x),
     )
 
@@ -153,7 +153,7 @@ class Qpsolvers:
             _duals_of(dense, answer),
             tolerance=self.tolerance,
             time_s=spent,
-            told=_told(answer),
+            report=_reported(answer),
         )
         self._last = found.x if self.mode == "warm" else None
         return found
@@ -198,10 +198,10 @@ def _duals_of(qp: Dense, answer: Any) -> Duals | None:
     )
 
 
-def _told(answer: Any) -> Told:
+def _reported(answer: Any) -> SolverReport:
     """What a qpsolvers solution says of time, iterations and success."""
     inner = getattr(answer, "solve_time", None)
-    return Told(
+    return SolverReport(
         inner_s=None if inner is None else float(inner),
         iterations=_iterations(answer.extras or {}),
         claims=bool(answer.found),

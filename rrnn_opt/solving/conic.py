@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.solving.backends import Told, solution
+from rrnn_opt.solving.backends import SolverReport, solution
 from rrnn_opt.solving.dense_session import DenseSession, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
@@ -76,8 +76,10 @@ class CasadiConic(DenseSession):
         except RuntimeError:
             self._start = {}
         spent = time.perf_counter() - start
-        told = Told(*_counted(self._call), claims)
-        return solution(qp, x, duals, tolerance=self.tolerance, time_s=spent, told=told)
+        report = SolverReport(*_counted(self._call), claims)
+        return solution(
+            qp, x, duals, tolerance=self.tolerance, time_s=spent, report=report
+        )
 
 
 def _made(plugin: str, qp: Dense) -> Any:

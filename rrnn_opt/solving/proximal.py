@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.solving.backends import TIGHT, Told, solution
+from rrnn_opt.solving.backends import TIGHT, SolverReport, solution
 from rrnn_opt.solving.dense_session import DenseSession, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
@@ -60,14 +60,16 @@ class PiqpSession(DenseSession):
             z=np.array(found.z_u) if len(qp.h) else np.zeros(0),
             z_box=np.array(found.z_bu) - np.array(found.z_bl),
         )
-        told = Told(ended - began, int(found.info.iter), status == piqp.PIQP_SOLVED)
+        report = SolverReport(
+            ended - began, int(found.info.iter), status == piqp.PIQP_SOLVED
+        )
         return solution(
             qp,
             np.array(found.x),
             duals,
             tolerance=self.tolerance,
             time_s=ended - start,
-            told=told,
+            report=report,
         )
 
 
@@ -121,7 +123,7 @@ class ProxqpSession(DenseSession):
             Duals(y=np.array(found.y), z=z, z_box=box),
             tolerance=self.tolerance,
             time_s=ended - start,
-            told=Told(ended - began, int(found.info.iter), bool(claims)),
+            report=SolverReport(ended - began, int(found.info.iter), bool(claims)),
         )
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.arguments import checked
-from rrnn_opt.solving.backends import TIGHT, Told, solution
+from rrnn_opt.solving.backends import TIGHT, SolverReport, solution
 from rrnn_opt.solving.dense_session import DenseSession, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
@@ -98,7 +98,7 @@ class OsqpSession(DenseSession):
             None if answer.y is None else _split(qp, answer.y),
             tolerance=self.tolerance,
             time_s=spent,
-            told=_told_by_osqp(answer.info),
+            report=_reported_by_osqp(answer.info),
         )
 
 
@@ -155,7 +155,7 @@ class DaqpSession(DenseSession):
             _split(qp, info["lam"]) if found else None,
             tolerance=self.tolerance,
             time_s=spent,
-            told=Told(info.get("solve_time"), info.get("iterations"), found),
+            report=SolverReport(info.get("solve_time"), info.get("iterations"), found),
         )
 
     def _set_up(self, qp: Dense) -> None:
@@ -166,8 +166,8 @@ class DaqpSession(DenseSession):
         self._model.setup(*_daqp_form(qp))
 
 
-def _told_by_osqp(info: Any) -> Told:
-    return Told(info.solve_time, info.iter, info.status == "solved")
+def _reported_by_osqp(info: Any) -> SolverReport:
+    return SolverReport(info.solve_time, info.iter, info.status == "solved")
 
 
 def _daqp_form(

@@ -104,9 +104,9 @@ ${prefix}_status_t ${prefix}_monitor(const ${prefix}_state_t *state, const ${pre
     ${prefix}_monitor_t seen = {0};
     real_t extent;
     real_t size;
-${watch_arrays}    ${watch_call};
+${monitor_arrays}    ${monitor_call};
     status = judged(in, extent, room, size);
-${watch_bounds}${watch_rows}    seen.verdict |= (seen.residual <= state->tolerance) ? 0U : ${PREFIX}_RESIDUAL_LARGE;
+${monitor_bounds}${monitor_rows}    seen.verdict |= (seen.residual <= state->tolerance) ? 0U : ${PREFIX}_RESIDUAL_LARGE;
     seen.verdict |= (seen.merit_change > RRNN_C(0.0)) ? ${PREFIX}_MERIT_ROSE : 0U;
     if (status == ${PREFIX}_OK) {
         *monitor = seen;

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rrnn_opt.solving import ActiveSet, Duals, Instance, Qpsolvers, Solution, Status
-from rrnn_opt.solving.backends import Told, solution
+from rrnn_opt.solving.backends import SolverReport, solution
 from rrnn_opt.solving.conic import PLUGINS, CasadiConic
 from rrnn_opt.solving.parts import Dense, handed
 from rrnn_opt.solving.proximal import PiqpSession, ProxqpSession
@@ -120,7 +120,7 @@ class Liar:
             duals,
             tolerance=1e-6,
             time_s=1e-6,
-            told=Told(claims=True),
+            report=SolverReport(claims=True),
         )
 
 

@@ -6,7 +6,7 @@ from rrnn_opt.embedding.kernel import Kernel
 from rrnn_opt.embedding.render import pointer
 
 
-def watch_words(kernel: Kernel, words: dict[str, str]) -> dict[str, str]:
+def monitor_words(kernel: Kernel, words: dict[str, str]) -> dict[str, str]:
     """Words of ``<prefix>_monitor``: its arrays, the call, and what is active.
 
     Args:
@@ -25,21 +25,21 @@ def watch_words(kernel: Kernel, words: dict[str, str]) -> dict[str, str]:
     ]
     results += ["below", "above", "&room"] * bool(bounds) + ["slack"] * bool(rows)
     return {
-        "watch_call": f"watch({', '.join(given + results)})",
-        "watch_arrays": _watch_arrays(bounds, rows),
-        "watch_bounds": _watch_bounds(words["PREFIX"]) * bool(bounds),
-        "watch_rows": _watch_rows(words["PREFIX"]) * bool(rows),
+        "monitor_call": f"watch({', '.join(given + results)})",
+        "monitor_arrays": _monitor_arrays(bounds, rows),
+        "monitor_bounds": _monitor_bounds(words["PREFIX"]) * bool(bounds),
+        "monitor_rows": _monitor_rows(words["PREFIX"]) * bool(rows),
     }
 
 
-def _watch_arrays(bounds: int, rows: int) -> str:
+def _monitor_arrays(bounds: int, rows: int) -> str:
     text = f"    real_t below[{bounds}];\n    real_t above[{bounds}];\n" * bool(bounds)
     text += "    real_t room;\n" if bounds else "    const real_t room = RRNN_C(0.0);\n"
     text += f"    real_t slack[{rows}];\n" * bool(rows)
     return text + "    uint32_t i;\n" * bool(bounds or rows)
 
 
-def _watch_bounds(name: str) -> str:
+def _monitor_bounds(name: str) -> str:
     return (
         f"    for (i = 0U; i < (uint32_t){name}_N_BOUNDS; ++i) {{\n"
         "        if (above[i] <= state->tolerance) {\n"
@@ -54,7 +54,7 @@ def _watch_bounds(name: str) -> str:
     )
 
 
-def _watch_rows(name: str) -> str:
+def _monitor_rows(name: str) -> str:
     return (
         f"    for (i = 0U; i < (uint32_t){name}_N_ROWS; ++i) {{\n"
         "        if (slack[i] <= state->tolerance) {\n"
