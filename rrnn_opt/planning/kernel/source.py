@@ -44,25 +44,21 @@ RUNTIME = (
 PREFIX = "rrnn_planner_"
 
 
-def frames_function(kin: Kinematics) -> ca.Function:
-    """``q -> axes, origins, centers, tip_position, tip_rotation``.
+def frames_functions(kin: Kinematics) -> list[ca.Function]:
+    """``q -> axes, origins, centers, tip_position, tip_rotation``; without centers.
 
     Centres lie coordinate by coordinate, filled up to whole blocks of lanes,
     (nsp, 3), so that loops over spheres read contiguous numbers.
     """
     tip, centres = kin.pose(), ca.transpose(kin.sphere_centres())
     missing = -centres.shape[0] % LANES
-    return emitted_function(
-        "k_frames",
-        {"q": kin.q},
-        {
-            "axes": kin.axes(),
-            "origins": kin.origins(),
-            "centers": ca.vertcat(centres, ca.SX.zeros(missing, 3)),
-            "tip_position": tip[:3, 3],
-            "tip_rotation": tip[:3, :3],
-        },
-    )
+    frames = {"axes": kin.axes(), "origins": kin.origins()}
+    spheres = {"centers": ca.vertcat(centres, ca.SX.zeros(missing, 3))}
+    ends = {"tip_position": tip[:3, 3], "tip_rotation": tip[:3, :3]}
+    return [
+        emitted_function("k_frames", {"q": kin.q}, {**frames, **spheres, **ends}),
+        emitted_function("k_tip_frames", {"q": kin.q}, {**frames, **ends}),
+    ]
 
 
 def row_functions(robot: Robot) -> list[ca.Function]:
@@ -159,7 +155,7 @@ def bounds_function() -> ca.Function:
 def emitted(robot: Robot, cell: MemoryCell) -> str:
     """The emitted half of the translation unit: tables and functions."""
     functions = [
-        frames_function(Kinematics(robot)),
+        *frames_functions(Kinematics(robot)),
         *row_functions(robot),
         *drive_functions(robot),
         *cell_functions(cell),

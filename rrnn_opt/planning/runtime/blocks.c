@@ -15,6 +15,12 @@ static void pose_at(const double *q, pose_t *pose)
              pose->tip_rotation);
 }
 
+/* The pose without the spheres' centres. */
+static void tip_pose_at(const double *q, pose_t *pose)
+{
+    k_tip_frames(q, pose->axes, pose->origins, pose->tip_position, pose->tip_rotation);
+}
+
 /* Centre of sphere i; centres lie coordinate by coordinate. */
 static void center_of(const pose_t *pose, int32_t i, double *p)
 {

@@ -51,7 +51,7 @@ static int inverse_kinematics(const planner_t *planner, const tip_goal_t *tip,
     for (int32_t step = 0; step < planner->set.ik_steps; step++) {
         int arrived;
         double z[NV] = {0};
-        pose_at(q, &pose);
+        tip_pose_at(q, &pose);
         drive(planner, q, &pose, &target, radius, w, &arrived);
         if (arrived) {
             return 1;

@@ -11,7 +11,7 @@ static double tip_error_at(const planner_t *planner, const double *q)
     target_t target = {.tip = planner->tips};
     double w[NV];
     int arrived;
-    pose_at(q, &pose);
+    tip_pose_at(q, &pose);
     return drive(planner, q, &pose, &target, planner->set.max_step, w, &arrived);
 }
 
