@@ -135,6 +135,11 @@ def _pair_lanes(
     return radii, rates, ways
 
 
+def _firsts(groups: list[int]) -> list[int]:
+    """Where each group begins, and at last where they end."""
+    return [groups.index(g) for g in dict.fromkeys(groups)] + [len(groups)]
+
+
 def _pair_tables(robot: Robot, reaches: Array) -> tuple[dict[str, int], list[str]]:
     """Sphere pairs in blocks: one sphere i against ``LANES`` consecutive ones."""
     pairs, groups, masks = _pair_groups(robot)
@@ -154,6 +159,7 @@ def _pair_tables(robot: Robot, reaches: Array) -> tuple[dict[str, int], list[str
         _c_table("int32_t", "t_pair_i", [i for i, _, _ in blocks]),
         _c_table("int32_t", "t_pair_j", [j for _, j, _ in blocks]),
         _c_table("int32_t", "t_pair_group", [g for _, _, g in blocks]),
+        _c_table("int32_t", "t_group_first", _firsts([g for _, _, g in blocks])),
         _c_table("double", "t_pair_radius", radii.ravel()),
         _c_table("double", "t_pair_lever", rates.ravel()),
         _c_table("double", "t_pair_idle", np.where(radii > 0.0, 0.0, FAR).ravel()),

@@ -27,10 +27,12 @@ static int world_near(world_t *world, const pose_t *pose, double radius)
             return 0;
         }
     }
-    for (int32_t c = 0; c < NQ; c++) {
-        if (world->pair_key[c] <= world->group_way[t_pair_group[c]] &&
-            !world_pairs(world, pose, c, radius)) {
-            return 0;
+    for (int32_t g = 0; g < NG; g++) {
+        const double way = world->group_way[g];
+        for (int32_t c = t_group_first[g]; c < t_group_first[g + 1]; c++) {
+            if (world->pair_key[c] <= way && !world_pairs(world, pose, c, radius)) {
+                return 0;
+            }
         }
     }
     return 1;
