@@ -40,8 +40,8 @@ def damped_least_squares(
     Its optimum is u = J'(J J' + delta^2 I)^-1 rd_dot.  The damping changes
     with the posture while the Hessian, I, does not: the slack is scaled, not
     its weight.  A constant delta would be ``slack_task`` without its limits.
-    At w >= threshold the task is met exactly, and the programme is feasible
-    because J then has full rank.
+    At w >= threshold the task is met exactly; the programme is feasible there,
+    J having full rank, if rd_dot asks for nothing that the arm can never do.
 
     Args:
         kin: kinematics of the robot.

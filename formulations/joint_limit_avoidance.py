@@ -17,7 +17,7 @@ _CITATION = (
 )
 _NOTES = (
     "The bounds (10) keep the limits; the wish only keeps away from them, as far as "
-    "the task leaves room.  Joints without limits have no wish."
+    "the task leaves room.  Joints without limits, or without a range, have no wish."
 )
 
 
@@ -61,7 +61,8 @@ def joint_limit_avoidance(
     """
     require_positive(gain=gain)
     limits = kin.robot.limits
-    finite = np.isfinite(limits.lower) & np.isfinite(limits.upper)
+    ends = np.isfinite(limits.lower) & np.isfinite(limits.upper)
+    finite = ends & (limits.upper > limits.lower)
     low = np.where(finite, limits.lower, 0.0)
     high = np.where(finite, limits.upper, 0.0)
     half = np.where(finite, (high - low) / 2, np.inf)

@@ -84,7 +84,8 @@ def slack_task(
     require_positive(delta=delta, delta_angular=delta_angular, gamma=gamma)
     require_not_negative(safe=safe)
     nv, wanted = kin.robot.nv, tracking(kin, frame, task)
-    both = Symbol.vector("u", nv + wanted.size, "rad/s", "joint velocity, then slack")
+    meaning, unit = "joint velocity, then slack", "rad/s or m/s"
+    both = Symbol.vector("u", nv + wanted.size, unit, meaning)
     u, found = both.sx[:nv], contacts_of(kin, contacts)
     scales = ca.SX([delta] * 3 + [delta_angular] * (wanted.size - 3))
     lower, upper = velocity_bounds(kin.q, kin.robot.limits, c1=c1, c2=c2)

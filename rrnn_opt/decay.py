@@ -31,7 +31,8 @@ class DecayClaim:
         id: e.g. "C11".
         source: where it is stated.
         statement: in words.
-        vertices: square matrices of one size, exact; see :func:`exact_matrix`.
+        vertices: square matrices of one size; floats are taken for the fractions
+            that they are.
         rate: 1/s (or 1/step of the time unit of A), at least 0; discrete: the
             contraction factor of a step, in [0, 1].
         discrete: whether time is discrete.
@@ -56,6 +57,9 @@ class DecayClaim:
     jacobian: str | None = None
 
     def __post_init__(self) -> None:
+        exact = tuple(exact_matrix(rows) for rows in self.vertices)
+        object.__setattr__(self, "vertices", exact)
+        object.__setattr__(self, "rate", exact_matrix([[self.rate]])[0][0])
         if not self.vertices or not self.vertices[0]:
             raise RrnnError(f"{self.id}: give at least one matrix")
         size = len(self.vertices[0])
@@ -93,12 +97,12 @@ def exact_matrix(rows: Rows) -> Matrix:
     """A matrix of exact numbers; a float is the rational number that it is.
 
     Raises:
-        RrnnError: a number is not finite.
+        RrnnError: it is no rows of finite numbers.
     """
     try:
         return tuple(tuple(Fraction(x) for x in row) for row in rows)
-    except (ValueError, OverflowError) as error:
-        raise RrnnError("matrix: every number must be finite") from error
+    except (TypeError, ValueError, OverflowError) as error:
+        raise RrnnError("matrix: give rows of finite numbers") from error
 
 
 def corner_matrices(

@@ -151,8 +151,8 @@ class NeuralDynamics(Dynamics):
 
     Attributes:
         derivative: f, (n, 1), unit of x per second.
-        longest_step: Euler step, s, beyond which the network does not come to
-            rest whatever its modes at one state say; infinite when they tell.
+        longest_step: longest Euler step, s, that a run should choose when the
+            modes at its start do not tell those that come later; else infinite.
 
     Raises:
         ShapeError: a part has the wrong shape.

@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from rrnn_opt.arguments import checked
-from rrnn_opt.errors import NotFiniteError, ShapeError
+from rrnn_opt.errors import NotFiniteError, RrnnError, ShapeError
 from rrnn_opt.symbolic.lagrangian import Lagrangian
 from rrnn_opt.symbolic.qp import QP
 from rrnn_opt.symbolic.symbol import (
@@ -62,7 +62,8 @@ class Formulation:
         NotAQpError: a part is not what it must be; the message names the
             operation, the row and the subexpression.
         NotFiniteError: a bound is NaN.
-        RrnnError: an undeclared symbol, two of one name, or an unknown level.
+        RrnnError: the name is no C identifier; an undeclared symbol, two of one
+            name or of one variable; or an unknown level.
     """
 
     name: str
@@ -79,6 +80,11 @@ class Formulation:
     inverse: str = ""
 
     def __post_init__(self) -> None:
+        if not ca.Function.check_name(self.name):
+            raise RrnnError(
+                f"formulation '{self.name}': use a C identifier as its name, "
+                "without two underscores together"
+            )
         n = self.decision.size
         if self.decision.shape != (n, 1):
             raise ShapeError(f"{self.name}: decision", (n, 1), self.decision.shape)

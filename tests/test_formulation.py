@@ -2,7 +2,13 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from rrnn_opt.errors import NotAQpError, NotFiniteError, RrnnError, ShapeError
+from rrnn_opt.errors import (
+    InfeasibleQpError,
+    NotAQpError,
+    NotFiniteError,
+    RrnnError,
+    ShapeError,
+)
 from rrnn_opt.formulation import Formulation
 from rrnn_opt.symbolic import Symbol
 
@@ -131,3 +137,18 @@ def test_the_level_is_one_of_three():
     assert form(level="acceleration").level == "acceleration"
     with pytest.raises(RrnnError, match="level: expected one of velocity"):
         form(level="torque")
+
+
+@pytest.mark.parametrize("name", ["my law", "1st", "a__b", ""])
+def test_a_name_that_no_c_function_can_have_is_refused(name):
+    with pytest.raises(RrnnError, match="C identifier"):
+        Formulation(name, u, (p,), COST)
+
+
+@pytest.mark.parametrize(
+    "parts", [{"lower": [np.inf, 0, 0]}, {"upper": [0, 0, -np.inf]}]
+)
+def test_a_bound_at_infinity_that_leaves_nothing_is_infeasible(parts):
+    made = form(**{side: ca.DM(values) for side, values in parts.items()})
+    with pytest.raises(InfeasibleQpError, match="is empty"):
+        made.qp.at(p=[0.0, 0.0])

@@ -38,14 +38,14 @@ class DualParts:
 
     @staticmethod
     def of(form: Formulation, who: str) -> DualParts:
-        """Take a formulation to its dual.
+        """Take a formulation to its dual; without rows and bounds z_box stays.
 
         Args:
             form: with a positive definite Hessian.
             who: the network that asks, for the message.
 
         Raises:
-            RrnnError: the Hessian is singular, or there are no rows and bounds.
+            RrnnError: the Hessian is singular.
         """
         inverse = ca.SX(ca.sparsify(ca.DM(inverse_hessian(form, who))))
         law, qp = form.lagrangian, form.qp

@@ -26,9 +26,10 @@ class Hildreth(DualProjection[DiscreteDynamics], ProjectionMap):
 
         lambda_i+ = lambda_i + (b_i - a_i x) / (a_i M a_i')
         mu_i+     = max(mu_i + (g_i x - h_i) / (g_i M g_i'), 0)
-        x_i+      = P(x_i - M_ii (0 - z_i)),   z_i by the difference
+        z_i+      = (v - P_i(v)) / M_ii,   v = x_i + M_ii z_i
 
-    x = M (A' lambda - G' mu - z - q) being carried along.  This is coordinate
+    P_i being the projection on [lb_i, ub_i], x = M (A' lambda - G' mu - z - q) being
+    carried along.  This is coordinate
     ascent of the dual; it converges wherever the programme is feasible, fast
     where rows are nearly orthogonal.  For P = I and inequality rows it is the
     sweep of emit/support/hildreth.h, which the planner runs, operation by

@@ -44,7 +44,7 @@ class LviPdnn(ProjectionNetwork[NeuralDynamics]):
         """``2 / (gamma |I + H|^2)``: below it no step goes away from a solution.
 
         This holds from every state, whatever is active.  Longer steps often
-        work: with orthonormal rows and P = I the bound is 0.34/gamma, and 0.5
+        work: with orthonormal rows and P = I the bound is 0.38/gamma, and 0.5
         has been seen to settle.
 
         Args:

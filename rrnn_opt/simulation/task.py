@@ -32,7 +32,8 @@ class Task:
         noise: settings of the noise.
         scene: obstacles; without any, no contact is ever active.
         contacts: index of the robot's sphere in each contact that a scheme
-            with contacts is told of; None: with obstacles, one sphere a link.
+            with contacts is told of; None: with obstacles one sphere a link, as
+            many of them, from the tip, as the scheme admits.
     """
 
     curve: Curve

@@ -6,7 +6,8 @@ By Farkas: if some y and z >= 0 make
 
 then no x in the box has A x = b and G x <= h, since for such an x the bracket
 is at most zero.  A linear programme proposes (y, z); the minimum over the box
-is then evaluated by us, so the proposing solver is not trusted.
+is then evaluated by us, so the proposing solver is not trusted.  It is evaluated
+in doubles, and what their rounding may have added is taken off.
 """
 
 from __future__ import annotations
@@ -43,12 +44,15 @@ class Farkas:
 
 @checked()
 def farkas_margin(problem: Any, y: ArrayLike, z: ArrayLike) -> float:
-    """The minimum m above for given multipliers; -inf when it is unbounded.
+    """The minimum m above for given multipliers, or a little less.
 
     Args:
         problem: ``qpsolvers.Problem`` or ``Dense``.
         y: (meq,).
         z: (mineq,); negative entries are taken as zero.
+
+    Returns:
+        m less a bound on its rounding; -inf when m is unbounded or not a number.
 
     Raises:
         ShapeError: y or z has another number of rows than the problem.
@@ -65,8 +69,13 @@ def farkas_margin(problem: Any, y: ArrayLike, z: ArrayLike) -> float:
     row = np.where(np.isinf(corner) & (np.abs(row) <= ROUNDING * scale), 0.0, row)
     if np.isinf(corner[row != 0.0]).any():
         return -np.inf
-    low = float(row @ np.where(row != 0.0, corner, 0.0))
-    return low - float(qp.b @ y + np.where(np.isfinite(qp.h), qp.h, 0.0) @ z)
+    corner, h = np.where(row != 0.0, corner, 0.0), np.where(z != 0.0, qp.h, 0.0)
+    margin = float(row @ corner - qp.b @ y - h @ z)
+    sizes = (np.abs(qp.A).T @ np.abs(y) + np.abs(qp.G).T @ z) @ np.abs(corner)
+    sizes += np.abs(qp.b) @ np.abs(y) + np.abs(h) @ z
+    terms = len(y) + len(z) + len(row) + 4
+    found = margin - float(terms * np.finfo(float).eps * sizes)
+    return -np.inf if np.isnan(found) else found
 
 
 @checked()
@@ -74,13 +83,16 @@ def find_farkas(problem: Any, *, tolerance: float = 1e-9) -> Farkas | None:
     """A witness that ``problem`` is infeasible, or None if none was found.
 
     Args:
-        problem: ``qpsolvers.Problem`` or ``Dense``.
+        problem: ``qpsolvers.Problem`` or ``Dense``; None is found where a row holds
+            NaN or an infinite coefficient.
         tolerance: least margin, with multipliers of at most one, that counts.
     """
     qp = Dense.of(problem)
     if (qp.lb > qp.ub).any():
         zero = np.zeros
         return Farkas(zero(len(qp.b)), zero(len(qp.h)), float(np.max(qp.lb - qp.ub)))
+    if not all(np.isfinite(part).all() for part in (qp.A, qp.b, qp.G)):
+        return None
     y, z = _propose(qp)
     margin = farkas_margin(qp, y, z)
     return Farkas(y, np.maximum(z, 0.0), margin) if margin > tolerance else None

@@ -4,7 +4,7 @@ For min 1/2 x'Px + q'x, A x = b, G x <= h, lb <= x <= ub with multipliers
 y, z >= 0 and z_box (positive at an upper, negative at a lower bound) the
 conditions are  Px + q + A'y + G'z + z_box = 0, feasibility, and that each
 multiplier vanishes where its row is slack.  All residuals are absolute
-infinity norms.  No solver's own word enters.
+infinity norms; one that is NaN counts as infinite.  No solver's own word enters.
 """
 
 from __future__ import annotations
@@ -68,10 +68,9 @@ def kkt_residual(problem: Any, x: ArrayLike | None, duals: Duals | None) -> Resi
     primal = _primal(qp, point)
     if duals is None or not _usable_duals(qp, duals):
         return Residual(primal, math.inf, math.inf, math.inf)
-    gap = abs(float(point @ (qp.P @ point + qp.q)) + dual_support(qp, duals))
-    return Residual(
-        primal, _dual(qp, point, duals), gap, _complementarity(qp, point, duals)
-    )
+    gap = np.abs(point @ (qp.P @ point + qp.q) + dual_support(qp, duals))
+    complementarity = _complementarity(qp, point, duals)
+    return Residual(primal, _dual(qp, point, duals), _largest(gap), complementarity)
 
 
 def relative_residual(
@@ -138,8 +137,10 @@ def dual_support(qp: Dense, duals: Duals) -> float:
     return float(qp.b @ duals.y + rows + box)
 
 
-def _largest(values: Array) -> float:
-    return float(np.max(values, initial=0.0))
+def _largest(values: ArrayLike) -> float:
+    """The largest of numbers, not below 0; infinite where one is NaN."""
+    largest = float(np.max(values, initial=0.0))
+    return math.inf if math.isnan(largest) else largest
 
 
 def _usable_duals(qp: Dense, duals: Duals) -> bool:

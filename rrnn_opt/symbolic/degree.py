@@ -15,7 +15,7 @@ from rrnn_opt.errors import NotAQpError
 from rrnn_opt.symbolic.symbol import Symbol
 from rrnn_opt.symbolic.tape import Instruction, Tape
 
-_LINEAR = ("add", "sub", "neg", "twice", "output")
+_LINEAR = ("add", "sub", "neg", "twice")
 _COMPARISONS = ("lt", "le", "eq", "ne", "and", "or", "not", "if_else_zero")
 _INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/", "lt": "<", "le": "<="}
 _INFIX |= {"eq": "==", "ne": "!=", "and": "&&", "or": "||"}

@@ -146,8 +146,8 @@ class QP:
             ShapeError: a value has the wrong shape.
             NotFiniteError: a value, or a coefficient that follows from it, is
                 NaN or infinite.
-            NotAQpError: P is not positive semidefinite.
-            InfeasibleQpError: a lower bound exceeds its upper bound.
+            NotAQpError: P is not positive semidefinite, in a QP made by hand.
+            InfeasibleQpError: no number lies between two bounds.
         """
         import qpsolvers
 
@@ -198,7 +198,7 @@ def _check(data: dict[str, Array]) -> None:
     lower, upper = data["lb"], data["ub"]
     if np.any(np.isnan(lower)) or np.any(np.isnan(upper)):
         raise NotFiniteError("qp.at: bounds")
-    for i in np.flatnonzero(lower > upper):
+    for i in np.flatnonzero((lower > upper) | (lower == np.inf) | (upper == -np.inf)):
         raise InfeasibleQpError(
             f"qp.at: bound {i} is empty, [{lower[i]:g}, {upper[i]:g}]; "
             "with the limits (10) this means a position outside its limits"

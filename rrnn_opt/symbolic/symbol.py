@@ -150,14 +150,14 @@ class Symbol:
 
 
 def require_names(symbols: tuple[Symbol, ...], where: str) -> None:
-    """Refuse two symbols of one name.
+    """Refuse two symbols of one name, or of one variable.
 
     Args:
         symbols: those of one declaration.
         where: whose they are, for the error.
 
     Raises:
-        RrnnError: a name stands twice.
+        RrnnError: a name stands twice, or a variable under two names.
     """
     for symbol in symbols:
         require_parts(symbol, where, ("name", "sx"))
@@ -165,6 +165,14 @@ def require_names(symbols: tuple[Symbol, ...], where: str) -> None:
     for name in names:
         if names.count(name) > 1:
             raise RrnnError(f"{where}: two symbols are called '{name}'; rename one")
+    owner: dict[int, str] = {}
+    for symbol in symbols:
+        for x in ca.vertsplit(ca.vec(symbol.sx)):
+            other = owner.setdefault(x.element_hash(), symbol.name)
+            if other != symbol.name:
+                raise RrnnError(
+                    f"{where}: '{other}' and '{symbol.name}' are one variable, {x}"
+                )
 
 
 def require_declared(expr: ca.SX, symbols: tuple[Symbol, ...], name: str) -> None:

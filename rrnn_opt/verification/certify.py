@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from rrnn_opt.arguments import checked
 from rrnn_opt.check.claims.answer import UNKNOWN
 from rrnn_opt.check.claims.certificate import CheckedCertificate, check_certificate
 from rrnn_opt.claim import Claim
@@ -38,6 +39,7 @@ BUDGET_S = 60.0
 """Default wall time of all engines together, s."""
 
 
+@checked(skip=["witnesses"])
 def certify(
     claim: Claim | DecayClaim,
     *,

@@ -29,8 +29,8 @@ class Verdict:
 
     Attributes:
         claim: fingerprint of the claim.
-        engine: who found it: "identity", "terms", "witness", "falsifier", or
-            "" when nobody did.
+        engine: who found it: the name of an engine, "witness", "composite", or ""
+            when nobody did.
         checked: the checker's answer; None for UNKNOWN.
         residue: what stood in the way of every engine, for UNKNOWN.
         time_s: wall time of engines and checker, s.
@@ -84,7 +84,7 @@ class Verdict:
 
     @property
     def trust(self) -> str | None:
-        """What the verdict rests on: "exact" or "arb"."""
+        """One of "exact", "arb", "interval", "smt", "pen": its weakest part's."""
         return None if self.checked is None else self.checked.trust
 
 

@@ -46,6 +46,14 @@ def test_no_step_within_the_bound_goes_away_from_the_solution(whiten):
             assert np.linalg.norm(after - rest) <= np.linalg.norm(y - rest) + 1e-9
 
 
+def test_the_bound_for_orthonormal_rows_is_the_one_told():
+    u = Symbol.vector("u", 3)
+    form = Formulation("rows", u, (), cost=ca.sumsqr(u.sx) / 2, equalities=u.sx[:2])
+    told = 4.0 / (7.0 + np.sqrt(13.0))  # 2 / |I + H|^2 on each pair (u, lambda)
+    assert LviPdnn(gamma=1.0).euler_bound(form) == pytest.approx(told)
+    assert f"{told:.2f}/gamma" in (LviPdnn.euler_bound.__doc__ or "")
+
+
 def test_a_semidefinite_hessian_settles_where_the_simplified_one_circles():
     """P = 0 with one row, u = 1: (6) has undamped modes, this one has none."""
     v = Symbol.scalar("v")

@@ -1,3 +1,5 @@
+from fractions import Fraction
+
 import numpy as np
 import pytest
 import qpsolvers
@@ -67,4 +69,34 @@ def test_an_unbounded_coordinate_cannot_be_separated():
 def test_a_row_without_a_bound_refutes_nothing():
     G, lb = np.array([[1.0]]), np.array([0.0])
     qp = qpsolvers.Problem(np.eye(1), np.zeros(1), G, np.array([np.inf]), lb=lb)
+    assert find_farkas(qp) is None
+
+
+@given(seed=st.integers(0, 10_000), power=st.integers(0, 12))
+@settings(max_examples=30)
+def test_a_margin_is_never_more_than_the_exact_one(seed, power):
+    """Against the same minimum in rational numbers."""
+    qp = problem(seed, 10.0**power)
+    rng = np.random.default_rng(seed + 1)
+    y, z = rng.uniform(-1, 1, 2), rng.uniform(0, 1, 2)
+
+    def exact(values):
+        return [Fraction(float(v)) for v in values]
+
+    rows = [exact(line) for line in np.vstack([qp.A, qp.G])]
+    weights, sides = exact([*y, *z]), exact([*qp.b, *qp.h])
+    margin = -sum(w * side for w, side in zip(weights, sides, strict=True))
+    for j, ends in enumerate(zip(exact(qp.lb), exact(qp.ub), strict=True)):
+        entry = sum(w * row[j] for w, row in zip(weights, rows, strict=True))
+        margin += min(entry * end for end in ends)
+    found = farkas_margin(qp, y, z)
+    assert Fraction(found) <= margin
+    assert found == pytest.approx(float(margin), rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("part", ["A", "b", "G"])
+def test_nothing_is_shown_of_rows_that_hold_nan(part):
+    qp = problem(0, 100.0)
+    number = getattr(qp, part)
+    number[(0,) * number.ndim] = np.nan
     assert find_farkas(qp) is None

@@ -137,3 +137,14 @@ def test_absent_parts_become_empty_rows_and_infinite_bounds():
 def test_every_status_says_a_sentence():
     assert all(" " in status.value for status in Status)
     assert Status.PRIMAL_INFEASIBLE.key == "primal_infeasible"
+
+
+@pytest.mark.parametrize("part", ["P", "q", "G", "h", "A", "b", "lb", "ub"])
+def test_a_programme_with_nan_is_never_solved(part):
+    problem, x, duals = optimal_qp(0)
+    number = getattr(problem, part)
+    number[(0,) * number.ndim] = np.nan
+    status, residual = judge(problem, x, duals, tolerance=1e-6)
+    assert status is Status.NUMERICAL
+    assert residual.worst == math.inf
+    assert not math.isnan(residual.primal + residual.dual)

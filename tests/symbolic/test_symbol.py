@@ -70,6 +70,9 @@ def test_a_symbol_of_the_same_name_is_not_the_same_symbol():
 def test_two_of_one_name_are_refused():
     with pytest.raises(RrnnError, match="'q'"):
         require_names((Symbol.scalar("q"), Symbol.vector("q", 2)), "here")
+    both = Symbol.vector("both", 2)
+    with pytest.raises(RrnnError, match="'both' and 'part' are one variable"):
+        require_names((both, Symbol("part", both.sx[1])), "here")
 
 
 def test_numbers_take_the_symbols_shape():

@@ -152,6 +152,11 @@ def test_bad_input_is_refused(planar):
         rr.certify_region(planar, rr.Region((0.0,) * 3, (0.1,) * 3), epsilon=-1.0)
     with pytest.raises(RrnnError):
         rr.Region((0.0, np.nan), (0.1, 0.1))
+    for bad in ({"delta": 0.0}, {"gain": -1.0}, {"error": 0.0}, {"grid": (0, 1)}):
+        with pytest.raises(RrnnError, match="positive"):
+            rr.certify_region(planar, **{"epsilon": 0.1} | bad)
+    with pytest.raises(RrnnError, match="0 to 2"):
+        rr.certify_region(planar, epsilon=0.1, joints=(0, 3))
 
 
 def test_map_is_written_and_drawn(found, tmp_path):

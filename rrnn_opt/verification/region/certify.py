@@ -95,8 +95,8 @@ def certify_region(
     begin = time.monotonic()
     kinematics = arm if isinstance(arm, Kinematics) else Kinematics(arm)
     region = region or Region.working(kinematics)
-    _require(region, kinematics, epsilon, error, grid)
     law = Law(epsilon, error, delta, gain, floor)
+    _require(region, kinematics, law, grid, joints)
     tools = Tools.of(kinematics, frame)
     pair = joints or telling_joints(tools, region)
     end = time.monotonic() + budget_s
@@ -117,15 +117,20 @@ def certify_region(
 def _require(
     region: Region,
     kinematics: Kinematics,
-    epsilon: float,
-    error: float,
+    law: Law,
     grid: tuple[int, int],
+    joints: tuple[int, int] | None,
 ) -> None:
     nv = kinematics.robot.nv
     if len(region.centre) != nv:
         raise ShapeError("region", (nv,), (len(region.centre),))
-    if not (epsilon > 0.0 and error > 0.0 and min(grid) >= 1):
-        raise RrnnError("certify_region: epsilon, error and grid must be positive")
+    delta = 1.0 if law.delta is None else law.delta
+    if not (min(law.epsilon, law.error, law.gain, delta) > 0.0 and min(grid) >= 1):
+        raise RrnnError(
+            "certify_region: epsilon, error, gain, delta and grid must be positive"
+        )
+    if joints is not None and not all(0 <= k < nv for k in joints):
+        raise RrnnError(f"certify_region: joints {joints}: they are 0 to {nv - 1}")
 
 
 def assumptions_of(law: Law) -> tuple[str, ...]:

@@ -56,6 +56,17 @@ def test_what_no_quadratic_function_shows_is_unknown():
     assert "no quadratic function" in verdict.reason
 
 
+def test_floats_are_the_fractions_that_they_are():
+    rows = [[-1.0, 0.1], [0.0, -2.0]]
+    plain = DecayClaim("T", "test", "words", (np.array(rows),), 0.25)
+    assert plain.vertices == (exact_matrix(rows),)
+    assert plain.fingerprint == claim("1/4", exact_matrix(rows)).fingerprint
+    assert certify(plain).status == "PROVED"
+    for bad in ("one", [["a"]], [[float("nan")]], [1.0]):
+        with pytest.raises(RrnnError, match="rows of finite numbers"):
+            claim("1/4", bad)
+
+
 def test_discrete_steps():
     step = exact_matrix([[0.5, 0.25], [0.0, 0.5]])
     assert certify(claim("3/5", step, discrete=True)).status == "PROVED"
