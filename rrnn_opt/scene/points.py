@@ -132,11 +132,13 @@ def _npy(raw: bytes) -> NDArray[Any]:
 
 def _csv(raw: bytes) -> NDArray[Any]:
     lines = [line for line in raw.decode("utf-8-sig").splitlines() if line.strip()]
+    if not lines:
+        return np.zeros((0, 3))
     try:
-        [float(word) for word in lines[0].split(",")] if lines else None
+        [float(word) for word in lines[0].split(",")]
     except ValueError:
         del lines[0]
     if len(lines) > MOST:
         raise ValueError(f"more than {MOST} rows")
     rows = [[float(word) for word in line.split(",")] for line in lines]
-    return np.array(rows, dtype=np.float64).reshape(len(rows), -1)
+    return np.array(rows, dtype=np.float64).reshape(len(rows), -1 if rows else 3)

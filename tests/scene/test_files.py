@@ -1,11 +1,11 @@
-"""Hulls and clouds: what is read, against scipy, coal and the checker's own reading."""
+"""Hulls of meshes: what is read, against scipy, coal and the checker's own reading."""
 
+import sys
 from pathlib import Path
 
 import coal
 import numpy as np
 import pytest
-from scipy.spatial import cKDTree
 
 from rrnn_opt.check.plans.solids.obstacle import read_obstacle
 from rrnn_opt.errors import DocumentError, ProblemError
@@ -142,37 +142,34 @@ def test_flat_and_missing_meshes_are_refused(tmp_path):
         Mesh("m", str(tmp_path / "bad.obj"))
 
 
-@pytest.mark.parametrize("suffix", ["npy", "csv", "named.csv"])
-def test_clouds_are_read_and_measured(tmp_path, suffix, rng_points):
-    points = np.random.default_rng(1).uniform(-1, 1, (3000, 3))
-    path = tmp_path / f"cloud.{suffix}"
-    if suffix == "npy":
-        np.save(path, points)
-    else:
-        header = "x,y,z" if suffix == "named.csv" else ""
-        np.savetxt(path, points, delimiter=",", header=header, comments="", fmt="%.17g")
-    cloud = Points("cloud", str(path), 0.01)
-    np.testing.assert_array_equal(cloud.centers, points)
-    solid = OneSolid(cloud.to_dict())
-    want = cKDTree(points).query(rng_points)[0] - 0.01
-    np.testing.assert_allclose(solid.distance(rng_points), want, atol=1e-12)
+def test_other_formats_are_read_by_trimesh(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    box = trimesh.creation.box((1.0, 2.0, 3.0))
+    box.export(tmp_path / "box.ply")
+    np.testing.assert_array_equal(
+        read_vertices(tmp_path / "box.ply", "path"), np.unique(box.vertices, axis=0)
+    )
+    (tmp_path / "torn.ply").write_bytes((tmp_path / "box.ply").read_bytes()[:200])
+    (tmp_path / "box.nothing").write_text("v 1 2 3")
+    for name in ("torn.ply", "box.nothing"):
+        with pytest.raises(ProblemError, match="no readable mesh: trimesh says"):
+            read_vertices(tmp_path / name, "path")
 
 
-@pytest.mark.parametrize(
-    "points", [np.zeros((3, 2)), np.zeros((0, 3)), np.full((2, 3), np.nan)]
-)
-def test_clouds_that_are_none_are_refused(tmp_path, points):
-    np.save(tmp_path / "p.npy", points)
-    with pytest.raises(ProblemError, match=r"p\.npy"):
-        Points("p", str(tmp_path / "p.npy"), 0.1)
+def test_without_trimesh_its_formats_are_refused(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "trimesh", None)
+    (tmp_path / "box.ply").write_text("ply")
+    with pytest.raises(
+        ProblemError, match=r"ply needs trimesh.*obj do not"
+    ):
+        read_vertices(tmp_path / "box.ply", "path")
 
 
-def test_a_cloud_whose_header_is_cut_is_refused(tmp_path):
-    np.save(tmp_path / "p.npy", np.zeros((3, 3)))
-    whole = (tmp_path / "p.npy").read_bytes()
-    (tmp_path / "p.npy").write_bytes(whole.replace(b"}", b" "))
-    with pytest.raises(ProblemError, match=r"p\.npy cannot be read"):
-        Points("p", str(tmp_path / "p.npy"), 0.1)
+@pytest.mark.parametrize("text", ["v 1 2 nan", "# nothing", "v 1 inf 2"])
+def test_a_mesh_needs_finite_vertices(tmp_path, text):
+    (tmp_path / "bad.obj").write_text(text)
+    with pytest.raises(ProblemError, match="holds no finite vertices"):
+        read_vertices(tmp_path / "bad.obj", "path")
 
 
 def test_every_solid_hangs_on_the_tree_once_inside_its_boxes(tmp_path, mesh):

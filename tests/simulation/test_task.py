@@ -38,6 +38,7 @@ DOCUMENT = {
     "robot": {"q0": [0.0, 0.1, 0.2]},
     "control": {},
     "noise": {},
+    "scene": {},
 }
 
 
@@ -103,6 +104,11 @@ BAD = [
     ("noise.enters", ("noise", "enters"), "torque"),
     ("noise.sigma", ("noise", "sigma"), -0.1),
     ("noise.seed", ("noise", "seed"), True),
+    ("scene.contacts", ("scene", "contacts"), 3),
+    ("scene.contacts[1]", ("scene", "contacts"), [0, -1]),
+    ("scene.contacts[0]", ("scene", "contacts"), [True]),
+    ("scene.obstacles", ("scene", "obstacles"), {}),
+    ("scene.walls", ("scene", "walls"), []),
     ("control", ("control",), 5),
     ("task", ("task",), 5),
 ]
@@ -149,3 +155,34 @@ def test_a_file_that_cannot_be_read(tmp_path):
     (tmp_path / "latin.toml").write_bytes(b"a = '\xff'")
     with pytest.raises(DocumentError, match="not UTF-8"):
         Task.load(tmp_path / "latin.toml")
+
+
+@pytest.mark.parametrize("kind", ["line", "point"])
+@pytest.mark.parametrize("key", ["offset", "position"])
+def test_a_line_ends_where_it_is_told_to(kind, key):
+    entry = {"kind": kind, key: [0.1, 0.0, -0.2]}
+    curve = Task.from_dict(DOCUMENT | {"task": entry}).curve
+    np.testing.assert_array_equal(getattr(curve, key), [0.1, 0.0, -0.2])
+    assert getattr(curve, "offset" if key == "position" else "position") is None
+
+
+def test_a_circle_may_have_its_centre_given():
+    entry = {"kind": "circle", "radius": 0.1, "centre": [0.3, 0.0, 0.5]}
+    curve = Task.from_dict(DOCUMENT | {"task": entry}).curve
+    np.testing.assert_array_equal(curve.centre, [0.3, 0.0, 0.5])
+
+
+def test_spheres_in_contact_are_listed():
+    assert Task.from_dict(DOCUMENT | {"scene": {"contacts": [0, 4]}}).contacts == (0, 4)
+    assert Task.from_dict(DOCUMENT).contacts is None
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("a = " + "[" * 5000, "nested too deeply"), ("a = = 3", "is not TOML")],
+)
+def test_what_is_no_toml_is_told_of(tmp_path, text, said):
+    path = tmp_path / "TASK.toml"
+    path.write_text(text)
+    with pytest.raises(DocumentError, match=said):
+        Task.load(path)
