@@ -6,9 +6,9 @@ is computed that a verdict could rest on.
 
 from rrnn_opt.report.claims import claims_html, claims_markdown, claims_table
 from rrnn_opt.report.files import file_name, write_bytes, write_text
-from rrnn_opt.report.page import write_page
-from rrnn_opt.report.picture import draw_plan
-from rrnn_opt.report.plan_files import write_plan
+from rrnn_opt.report.plan.files import write_plan
+from rrnn_opt.report.plan.page import write_page
+from rrnn_opt.report.plan.picture import draw_plan
 from rrnn_opt.report.region_map import draw_region
 from rrnn_opt.report.tables import check_line, table
 from rrnn_opt.report.tracking import draw_tracking

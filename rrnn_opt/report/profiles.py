@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.report.charts import INK
+from rrnn_opt.report.axes import INK
 from rrnn_opt.report.save import save
 
 LABELLED = 9

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.errors import DocumentError
-from rrnn_opt.report.charts import INK
+from rrnn_opt.report.axes import INK
 from rrnn_opt.report.files import write_bytes
 from rrnn_opt.report.save import save
 

@@ -7,7 +7,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.report.charts import CURVES, LIMIT, dress
+from rrnn_opt.report.axes import CURVES, LIMIT, dress
 from rrnn_opt.report.save import save
 
 Array = NDArray[np.float64]

@@ -12,7 +12,7 @@ from rrnn_opt.embedding import Package
 from rrnn_opt.embedding.package import with_manifest
 from rrnn_opt.errors import DocumentError, RobotError, RrnnError
 from rrnn_opt.report import file_name
-from rrnn_opt.report.drawing import drawing_of
+from rrnn_opt.report.plan.drawing import drawing_of
 from rrnn_opt.robot import Robot
 from rrnn_opt.study import Store
 

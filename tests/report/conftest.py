@@ -17,7 +17,7 @@ _SPEC.loader.exec_module(documents)
 @pytest.fixture(autouse=True)
 def coarse(monkeypatch) -> None:
     """Draw at a third of the resolution: the tests look at shares of pixels."""
-    monkeypatch.setattr("rrnn_opt.report.picture.DPI", 36)
+    monkeypatch.setattr("rrnn_opt.report.plan.picture.DPI", 36)
 
 
 @pytest.fixture

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from rrnn_opt.planning import PaperRnn, Problem, plan
 from rrnn_opt.report.files import write_bytes
-from rrnn_opt.report.palette import END, OBSTACLE, START, TARGET, time_colours
+from rrnn_opt.report.plan.palette import END, OBSTACLE, START, TARGET, time_colours
 from rrnn_opt.robot import Kinematics
 from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.figures.rolled import rolled

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from rrnn_opt.report.charts import CURVES
+from rrnn_opt.report.axes import CURVES
 from rrnn_opt.report.files import write_bytes
 from rrnn_opt.simulation import SimulationResult
 from rrnn_opt.validation.ending import ended

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rrnn_opt.planning import PlanResult, Problem, SingleRollout, plan
-from rrnn_opt.report.picture import draw_scene
+from rrnn_opt.report.plan.picture import draw_scene
 from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.figures.figure_2 import write
 from rrnn_opt.validation.figures.rolled import planned_or_rolled

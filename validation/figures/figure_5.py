@@ -21,7 +21,7 @@ from rrnn_opt.planning import PaperRnn, Problem, RandomRnn
 from rrnn_opt.planning.search.request import pack
 from rrnn_opt.planning.searches import open_search, runtime_for
 from rrnn_opt.planning.settings.planners import PlannerSettings
-from rrnn_opt.report.charts import CURVES, dress
+from rrnn_opt.report.axes import CURVES, dress
 from rrnn_opt.validation.ending import ended
 from rrnn_opt.validation.figures.figure_2 import write
 from rrnn_opt.validation.tables.starts import start_problem

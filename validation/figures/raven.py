@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.planning import Problem, plan
-from rrnn_opt.report.camera import View
-from rrnn_opt.report.picture import draw_scene
+from rrnn_opt.report.plan.camera import View
+from rrnn_opt.report.plan.picture import draw_scene
 from rrnn_opt.scene.library import scenario
 from rrnn_opt.validation.ending import ended
 

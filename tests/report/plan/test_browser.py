@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rrnn_opt.report.page import write_page
+from rrnn_opt.report.plan.page import write_page
 
 _SPEC = importlib.util.spec_from_file_location(
     "report_browser", Path(__file__).with_name("browser.py")

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.errors import ProblemError
-from rrnn_opt.report import mesh
-from rrnn_opt.report.mesh import Mesh
+from rrnn_opt.report.plan import mesh
+from rrnn_opt.report.plan.mesh import Mesh
 from rrnn_opt.report.save import drawable
 from rrnn_opt.scene.shapes import Box, Capsule, Cylinder, HalfSpace, Obstacle, Sphere
 

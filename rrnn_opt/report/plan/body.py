@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.report import mesh
-from rrnn_opt.report.mesh import Mesh
+from rrnn_opt.report.plan import mesh
+from rrnn_opt.report.plan.mesh import Mesh
 
 Array = NDArray[np.float64]
 

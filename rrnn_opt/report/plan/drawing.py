@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt.errors import DocumentError
-from rrnn_opt.report.body import Part, parts_of, spheres_of
-from rrnn_opt.report.camera import View, best_view
-from rrnn_opt.report.clearance import Approach, sampled_clearance
-from rrnn_opt.report.mesh import Mesh, merged
-from rrnn_opt.report.motion import Motion, motion_of
-from rrnn_opt.report.plan_form import require_plan
-from rrnn_opt.report.pose import joint_frames, sphere_centres, tip_positions
-from rrnn_opt.report.stage import Workspace, drawn, obstacles_of, workspace
-from rrnn_opt.report.traces import tool_traces
+from rrnn_opt.report.plan.body import Part, parts_of, spheres_of
+from rrnn_opt.report.plan.camera import View, best_view
+from rrnn_opt.report.plan.clearance import Approach, sampled_clearance
+from rrnn_opt.report.plan.form import require_plan
+from rrnn_opt.report.plan.mesh import Mesh, merged
+from rrnn_opt.report.plan.motion import Motion, motion_of
+from rrnn_opt.report.plan.pose import joint_frames, sphere_centres, tip_positions
+from rrnn_opt.report.plan.stage import Workspace, drawn, obstacles_of, workspace
+from rrnn_opt.report.plan.traces import tool_traces
 from rrnn_opt.scene.shapes import Obstacle
 
 Array = NDArray[np.float64]

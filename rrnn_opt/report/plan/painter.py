@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rrnn_opt.report.camera import View
-from rrnn_opt.report.mesh import Mesh
+from rrnn_opt.report.plan.camera import View
+from rrnn_opt.report.plan.mesh import Mesh
 
 Array = NDArray[np.float64]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from rrnn_opt.report.drawing import Drawing
-from rrnn_opt.report.palette import (
+from rrnn_opt.report.plan.drawing import Drawing
+from rrnn_opt.report.plan.palette import (
     END,
     NEAREST,
     OBSTACLE,

@@ -8,10 +8,10 @@ import json
 from pathlib import Path
 from typing import Any
 
-from rrnn_opt.report.drawing import drawing_of
 from rrnn_opt.report.files import write_bytes, write_text
-from rrnn_opt.report.page import page
-from rrnn_opt.report.picture import picture
+from rrnn_opt.report.plan.drawing import drawing_of
+from rrnn_opt.report.plan.page import page
+from rrnn_opt.report.plan.picture import picture
 
 DRAWN = ("trajectory.csv", "plan.png", "plan.html")
 BLOCKS = ("q", "qd", "qdd")

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.report import charts, mesh
-from rrnn_opt.report.camera import View
-from rrnn_opt.report.charts import INK
-from rrnn_opt.report.drawing import TILES, Drawing, drawing_of
+from rrnn_opt.report.axes import INK
 from rrnn_opt.report.files import write_bytes
-from rrnn_opt.report.key import draw_key, nearest_approach
-from rrnn_opt.report.painter import Painter
-from rrnn_opt.report.palette import (
+from rrnn_opt.report.plan import charts, mesh
+from rrnn_opt.report.plan.camera import View
+from rrnn_opt.report.plan.drawing import TILES, Drawing, drawing_of
+from rrnn_opt.report.plan.key import draw_key, nearest_approach
+from rrnn_opt.report.plan.painter import Painter
+from rrnn_opt.report.plan.palette import (
     END,
     GRID,
     NEAREST,
@@ -29,8 +29,8 @@ from rrnn_opt.report.palette import (
     TREES,
     time_colours,
 )
+from rrnn_opt.report.plan.stage import drawn
 from rrnn_opt.report.save import drawable, save
-from rrnn_opt.report.stage import drawn
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.report.pose import joint_frames, tip_positions
+from rrnn_opt.report.plan.pose import joint_frames, tip_positions
 
 Array = NDArray[np.float64]
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from rrnn_opt.report import mesh
+from rrnn_opt.report.plan import mesh
 
 
 def volume(solid: mesh.Mesh) -> float:

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from rrnn_opt.report.stage import Workspace, drawn, obstacles_of
+from rrnn_opt.report.plan.stage import Workspace, drawn, obstacles_of
 from rrnn_opt.scene import Box, Capsule, Cylinder, HalfSpace, Sphere
 from rrnn_opt.scene.distance import distance_function
 

@@ -1,7 +1,7 @@
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
-from rrnn_opt.report.motion import motion_of, sample
+from rrnn_opt.report.plan.motion import motion_of, sample
 
 
 def test_samples_are_those_of_scipys_hermite_spline():

@@ -7,16 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.report.motion import Motion
-from rrnn_opt.report.palette import NEAREST
+from rrnn_opt.report.axes import CURVES, LIMIT, dress
+from rrnn_opt.report.plan.motion import Motion
+from rrnn_opt.report.plan.palette import NEAREST
 
 Array = NDArray[np.float64]
 
-INK = "#2b2f38"
-GRID = "#e3e6ec"
-LIMIT = "#c0392b"
 LONGEST = 14
-CURVES = ("#3b6fb6", "#e08b2d", "#4a9d6e", "#b5527d", "#7a68b3", "#8a6d4b", "#4aa5b5")
 
 
 def velocities(axes: Any, document: dict[str, Any], motion: Motion) -> None:
@@ -73,21 +70,6 @@ def clearance(
     axes.set_ylim(min(-0.08 * top, 1.1e3 * float(distance.min())), 1.12 * top + 1e-9)
     dress(axes, "clearance to obstacles [mm]", "time [s]", motion.t)
     axes.legend(fontsize=6.5, frameon=False, loc="upper right")
-
-
-def dress(axes: Any, title: str, below: str, over: Array) -> None:
-    """Give a chart its title, its axis label and the common looks."""
-    axes.set_title(title, loc="left", fontsize=9, color=INK, pad=5)
-    axes.set_xlabel(below, fontsize=7.5, color=INK, labelpad=2)
-    if len(over) > 1:
-        axes.set_xlim(over[0], over[-1])
-    axes.tick_params(labelsize=7, colors=INK, length=2.5)
-    axes.grid(True, color=GRID, lw=0.6)
-    axes.set_axisbelow(True)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
-    for side in ("left", "bottom"):
-        axes.spines[side].set_color("#9aa1ad")
 
 
 def _numbered(count: int) -> list[str]:

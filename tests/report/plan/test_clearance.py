@@ -1,7 +1,7 @@
 import numpy as np
 
-from rrnn_opt.report.clearance import sampled_clearance
-from rrnn_opt.report.pose import joint_frames, sphere_centres
+from rrnn_opt.report.plan.clearance import sampled_clearance
+from rrnn_opt.report.plan.pose import joint_frames, sphere_centres
 from rrnn_opt.scene import HalfSpace, Sphere
 
 

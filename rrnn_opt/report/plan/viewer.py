@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.report.drawing import Drawing
-from rrnn_opt.report.mesh import Mesh, merged
-from rrnn_opt.report.palette import (
+from rrnn_opt.report.plan.drawing import Drawing
+from rrnn_opt.report.plan.mesh import Mesh, merged
+from rrnn_opt.report.plan.palette import (
     END,
     GRID,
     NEAREST,
@@ -25,7 +25,7 @@ from rrnn_opt.report.palette import (
     rgb,
     time_colours,
 )
-from rrnn_opt.report.stage import drawn
+from rrnn_opt.report.plan.stage import drawn
 from rrnn_opt.scene.pose import quaternion_from_matrix
 
 Array = NDArray[np.float64]

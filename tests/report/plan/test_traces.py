@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from rrnn_opt.planning import Problem, plan
-from rrnn_opt.report.drawing import drawing_of
-from rrnn_opt.report.pose import joint_frames, tip_positions
-from rrnn_opt.report.traces import PIECES, tool_traces
+from rrnn_opt.report.plan.drawing import drawing_of
+from rrnn_opt.report.plan.pose import joint_frames, tip_positions
+from rrnn_opt.report.plan.traces import PIECES, tool_traces
 from rrnn_opt.scene.library import scenario
 
 

@@ -42,7 +42,7 @@ def test_an_earlier_plan_goes_before_anything_is_written(window, tmp_path, monke
         seen.append(sorted(file.name for file in tmp_path.iterdir()))
         raise OSError("No space left on device")
 
-    monkeypatch.setattr("rrnn_opt.report.plan_files.write_text", full)
+    monkeypatch.setattr("rrnn_opt.report.plan.files.write_text", full)
     with pytest.raises(OSError, match="No space left"):
         write_plan({**window, "trajectory": None}, tmp_path)
     assert seen == [[]]

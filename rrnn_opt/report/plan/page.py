@@ -15,13 +15,13 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
-from rrnn_opt.report.drawing import Drawing, drawing_of
 from rrnn_opt.report.files import write_text
-from rrnn_opt.report.key import nearest_approach, page_key
-from rrnn_opt.report.palette import END
-from rrnn_opt.report.picture import chart_list, picture
+from rrnn_opt.report.plan.drawing import Drawing, drawing_of
+from rrnn_opt.report.plan.key import nearest_approach, page_key
+from rrnn_opt.report.plan.palette import END
+from rrnn_opt.report.plan.picture import chart_list, picture
+from rrnn_opt.report.plan.viewer import INSTALL, scene_html
 from rrnn_opt.report.save import save
-from rrnn_opt.report.viewer import INSTALL, scene_html
 
 WAITING = (
     '<p class="wait">The scene is being unpacked; it needs WebGL. '
@@ -55,7 +55,7 @@ def page(document: dict[str, Any], drawing: Drawing | None = None) -> str:
     """
     drawing = drawing_of(document) if drawing is None else drawing
     robot = str(document["robot"].get("name", "robot"))
-    template = resources.files("rrnn_opt.report").joinpath("page.html")
+    template = resources.files("rrnn_opt.report.plan").joinpath("page.html")
     return Template(template.read_text("utf-8")).substitute(
         title=html.escape(f"{robot}: {document.get('status', 'plan')}"),
         robot=html.escape(robot),

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.report.pose import joint_frames, sphere_centres
+from rrnn_opt.report.plan.pose import joint_frames, sphere_centres
 from rrnn_opt.scene.shapes import Obstacle
 
 Array = NDArray[np.float64]

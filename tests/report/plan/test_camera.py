@@ -1,7 +1,7 @@
 import numpy as np
 
-from rrnn_opt.report import mesh
-from rrnn_opt.report.camera import View, best_view, unhidden
+from rrnn_opt.report.plan import mesh
+from rrnn_opt.report.plan.camera import View, best_view, unhidden
 
 
 def test_axes_are_a_right_handed_frame():

@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 
 from rrnn_opt.errors import DocumentError
-from rrnn_opt.report.picture import draw_plan, picture
+from rrnn_opt.report.plan.picture import draw_plan, picture
 
 
 def pixels(document: dict) -> np.ndarray:

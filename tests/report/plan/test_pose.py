@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from rrnn_opt.report.pose import joint_frames, sphere_centres, tip_positions
+from rrnn_opt.report.plan.pose import joint_frames, sphere_centres, tip_positions
 from rrnn_opt.robot import Kinematics, Robot
 
 

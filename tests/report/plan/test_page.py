@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from rrnn_opt.report.page import page, write_page
+from rrnn_opt.report.plan.page import page, write_page
 
 EVIL = '"><script>alert(1)</script>&'
 VISER = importlib.util.find_spec("viser") is not None

@@ -1,0 +1,1 @@
+"""A plan result drawn: one picture, one page that opens offline."""
