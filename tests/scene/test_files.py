@@ -159,9 +159,7 @@ def test_other_formats_are_read_by_trimesh(tmp_path):
 def test_without_trimesh_its_formats_are_refused(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "trimesh", None)
     (tmp_path / "box.ply").write_text("ply")
-    with pytest.raises(
-        ProblemError, match=r"ply needs trimesh.*obj do not"
-    ):
+    with pytest.raises(ProblemError, match=r"ply needs trimesh.*obj do not"):
         read_vertices(tmp_path / "box.ply", "path")
 
 
