@@ -20,8 +20,12 @@ _HOME = {
     "Euler": "rrnn_opt.dynamics",
     "LyapunovFunction": "rrnn_opt.lyapunov",
     "Claim": "rrnn_opt.claim",
+    "Relation": "rrnn_opt.claim",
+    "Hypothesis": "rrnn_opt.claim",
+    "Range": "rrnn_opt.claim",
     "Scene": "rrnn_opt.scene",
     "Problem": "rrnn_opt.planning",
+    "Task": "rrnn_opt.simulation",
     # verbs
     "plan": "rrnn_opt.planning",
     "plan_many": "rrnn_opt.planning",
@@ -43,6 +47,8 @@ _ROOMS = (
     "symbolic",
     "check",
     "solving",
+    "simulation",
+    "verification",
     "study",
     "validation",
 )

@@ -68,14 +68,21 @@ class LyapunovFunction:
             V', (1, 1).
 
         Raises:
-            RrnnError: the state is another symbol, a rate belongs to no
-                parameter of V, or a rate depends on an undeclared symbol.
+            RrnnError: the state is another symbol, or a parameter of one name
+                another one; a rate belongs to no parameter of V, or depends on
+                an undeclared symbol.
             ShapeError: a rate has the wrong shape.
         """
         self._require_state(dynamics)
         rates = dict(parameter_rates or {})
         value = _along(self.value, self.state, dynamics.derivative)
-        every = {s.name: s for s in (*self.parameters, *dynamics.parameters)}
+        every = {s.name: s for s in self.parameters}
+        for symbol in dynamics.parameters:
+            if not _same(every.setdefault(symbol.name, symbol), symbol):
+                raise RrnnError(
+                    f"V and the dynamics have two symbols '{symbol.name}'; write V "
+                    "in those of dynamics.parameters"
+                )
         for symbol in self.parameters:
             if symbol.name in rates:
                 name = f"rate of '{symbol.name}'"
@@ -136,5 +143,9 @@ def _same(first: Symbol, second: Symbol) -> bool:
     """Whether two symbols stand for the same elements in the same order."""
     return first.shape == second.shape and all(
         a.element_hash() == b.element_hash()
-        for a, b in zip(ca.vertsplit(first.sx), ca.vertsplit(second.sx), strict=True)
+        for a, b in zip(_elements(first), _elements(second), strict=True)
     )
+
+
+def _elements(symbol: Symbol) -> list[ca.SX]:
+    return ca.vertsplit(ca.vec(symbol.sx))  # type: ignore[no-any-return]

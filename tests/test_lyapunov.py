@@ -110,6 +110,15 @@ def test_parameters_without_a_rate_stand_still():
     assert float(g(3, 5)) == -9.0
 
 
+def test_a_parameter_is_the_one_of_the_dynamics():
+    """Another symbol of that name would leave two different q in one derivative."""
+    twin = Symbol.vector("q", KIN.robot.nv)
+    value = ca.sumsqr(NETWORK.state.sx) * twin.sx[0]
+    V = LyapunovFunction(value, NETWORK.state, (twin,))
+    with pytest.raises(RrnnError, match="two symbols 'q'"):
+        V.derivative(NETWORK, parameter_rates={"q": NETWORK.output})
+
+
 def test_mistakes_are_named():
     x, p = Symbol.vector("x", 2), Symbol.vector("p", 2)
     law = NeuralDynamics("law", x, (p,), -x.sx, x.sx, x.sx)

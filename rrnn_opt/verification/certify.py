@@ -11,7 +11,12 @@ from rrnn_opt.check.claims.answer import UNKNOWN
 from rrnn_opt.check.claims.certificate import CheckedCertificate, check_certificate
 from rrnn_opt.claim import Claim
 from rrnn_opt.decay import DecayClaim
-from rrnn_opt.errors import RrnnError, UndecidedError, UnsupportedOperationError
+from rrnn_opt.errors import (
+    CompilerError,
+    RrnnError,
+    UndecidedError,
+    UnsupportedOperationError,
+)
 from rrnn_opt.verification.document import Witness, certificate_document
 from rrnn_opt.verification.engines import lmi, normal
 from rrnn_opt.verification.engines.interval import engine as interval
@@ -141,7 +146,7 @@ def _answers(
             return
         except UndecidedError as error:
             yield engine.name, error.reason
-        except UnsupportedOperationError as error:
+        except (UnsupportedOperationError, CompilerError) as error:
             yield engine.name, str(error)
 
 

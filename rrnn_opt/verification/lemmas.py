@@ -116,7 +116,7 @@ def nonexpansive() -> Claim:
 
 
 def complementary() -> Claim:
-    """Mu (g + t) >= 0 for mu = max(mu + g, 0) and t >= 0.
+    """A pair mu = max(mu + g, 0) has mu (g + t) >= 0 for every t >= 0.
 
     mu and g are then complementary: mu >= 0, g <= 0, mu g = 0.
     """

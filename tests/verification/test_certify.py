@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 import rrnn_opt as rr
 from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
-from rrnn_opt.errors import RrnnError
+from rrnn_opt.errors import CompilerError, RrnnError
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.verification import ClaimCase, Mutation, Status, certify, verdict_row
+from rrnn_opt.verification.engines.interval.kernel import IntervalKernel
 from rrnn_opt.verification.engines.points.falsify import candidates
 
 X, Y = Symbol.scalar("x"), Symbol.vector("y", 2)
@@ -61,6 +62,7 @@ def test_verdicts(stated, status, engine):
 
 
 def test_the_verb_is_at_the_top():
+    assert (rr.Relation, rr.Hypothesis, rr.Range) == (Relation, Hypothesis, Range)
     assert rr.certify is certify
     assert rr.certify(claim(x - x + y[0] - y[0])).status is Status.PROVED
 
@@ -113,6 +115,18 @@ def test_engines_can_be_chosen():
     assert certify(claim(x**2, ">=0"), engines=("identity",)).status == "UNKNOWN"
     with pytest.raises(RrnnError, match="use one of identity, terms"):
         certify(claim(x), engines=("oracle",))
+
+
+def test_without_a_compiler_the_other_engines_go_on(monkeypatch):
+    def none(*_):
+        raise CompilerError("there is no C compiler")
+
+    monkeypatch.setattr(IntervalKernel, "of", none)
+    box = (Range("x", (-1,), (2,)), Range("y", (0, 0), (1, 1)))
+    bowl = claim(x**2 - 2 * x + 1.5, ">0", domain=box)
+    verdict = certify(bowl, engines=["interval"])
+    assert verdict.residue == ("interval: there is no C compiler",)
+    assert certify(bowl, engines=["interval", "sos"]).status == "PROVED"
 
 
 def test_an_operation_outside_the_table_is_unknown():

@@ -14,7 +14,7 @@ from rrnn_opt.verification.vocabulary import added, stated
 
 
 def case(kinematics: Kinematics) -> ClaimCase:
-    """S = m - n makes q' unique: J_A u = J_A v implies u = v, m = 2, n = s = 1.
+    """With s = m - n, q' is unique: J_A u = J_A v implies u = v; m = 2, n = s = 1.
 
     Two velocities that give the same augmented velocity are to be equal, for
     all rows J and J_y.  J = [1 0] and J_y = [2 0] leave the second joint free.

@@ -7,7 +7,7 @@ from rrnn_opt.verification import Remark
 
 
 def case(kinematics: Kinematics) -> Remark:
-    """Q in Omega and q' in Omega: a slip of types, not a statement.
+    """Both q and q' lie in Omega: a slip of types, not a statement.
 
     Args:
         kinematics: not used.

@@ -49,7 +49,7 @@ def case(kinematics: Kinematics) -> ClaimCase:
 
 
 def _cell() -> DecayClaim:
-    """Z' = [[-1, J], [-J, 0]] z decays at 1/10, one quadratic function for the cell."""
+    """For every J(t) in the cell z' = [[-1, J], [-J, 0]] z decays at 1/10."""
     ends = (Fraction(1, 2), Fraction(2))
     return DecayClaim(
         id="C11",

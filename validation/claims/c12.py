@@ -11,7 +11,7 @@ from rrnn_opt.verification import ClaimCase, Mutation, Repair
 
 
 def case(kinematics: Kinematics) -> ClaimCase:
-    """U - dL/du = J'lam for L of (8), differentiated automatically.
+    """The drive u - dL/du is J'lam for L of (8), differentiated automatically.
 
     With u'u in (8) it is -u + J'lam; with u'u/2 it is J'lam.
 

@@ -20,7 +20,7 @@ from rrnn_opt.verification.vocabulary import added
 
 
 def case(kinematics: Kinematics) -> ClaimCase:
-    """E'J P(J'e/epsilon) >= 0 for 7 joints, 3 rows, every J, e and box with 0.
+    """For 7 joints, 3 rows, every J, e and box with 0, e'J P(J'e/epsilon) >= 0.
 
     The projection at x against y = 0, once a joint: x P = P^2 + (x - P)(P - 0).
     So V' <= -epsilon |P|^2, twice what the paper keeps.  (20) puts y = 0 into

@@ -72,7 +72,7 @@ def _any_size() -> Claim:
 
 
 def _first_order() -> Claim:
-    """Q' = P(drive) on the interval (10) is at most c x: (x exp(c t))' >= 0."""
+    """On the interval (10) q' = P(drive) is at most c x: (x exp(c t))' >= 0."""
     x, drive, low, fastest, c = scalars("x drive low w_high c")
     velocity = clip(drive.sx, low.sx, ca.fmin(c.sx * x.sx, fastest.sx))
     return Claim(

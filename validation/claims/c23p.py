@@ -14,7 +14,7 @@ from rrnn_opt.verification.vocabulary import (
 
 
 def case(kinematics: Kinematics) -> ClaimCase:
-    """X - h v >= 0 for x = q+ - q >= 0 and v <= c x, if h c <= 1.
+    """The step x - h v is >= 0 for x = q+ - q >= 0 and v <= c x, if h c <= 1.
 
         x - h v = x (1 - h c) + h (c x - v)
 

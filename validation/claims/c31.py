@@ -15,7 +15,7 @@ MOST = 0.6414
 
 
 def case(kinematics: Kinematics) -> ClaimCase:
-    """X' <= 0 at x = 0.6414 and x' >= 0 at x = 0, for A = 0.9, w = 0.95, I <= 1.
+    """At x = 0.6414 x' <= 0, at x = 0 x' >= 0, for A = 0.9, w = 0.95, I <= 1.
 
     So x stays in [0, 0.6414] once there (Nagumo), and a heuristic search, which
     is made with probability 1 - x, has at least 0.3586 however many collisions

@@ -106,7 +106,7 @@ class _Parts:
 
     @property
     def drive(self) -> ca.SX:
-        """U - dL/du: the graph's own, with I - P folded, where that is exact."""
+        """The point u - dL/du: the graph's own, I - P folded, where that is exact."""
         law, P = self.form.lagrangian, self.form.qp.hessian
         folded = np.eye(len(P)) - P
         exact = all(
