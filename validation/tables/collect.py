@@ -9,7 +9,8 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from rrnn_opt.study import Results, Row, Study, processor
+from rrnn_opt.errors import RrnnError
+from rrnn_opt.study import Results, Study, processor
 
 
 def collect(study: Study, folder: Path, *, jobs: int = 1) -> list[dict[str, Any]]:
@@ -21,15 +22,20 @@ def collect(study: Study, folder: Path, *, jobs: int = 1) -> list[dict[str, Any]
         jobs: worker processes.
 
     Returns:
-        Metrics of each case; {"error": ...} where it failed.
+        Metrics of each case.
+
+    Raises:
+        RrnnError: cases failed; a table of the others would not be of the study.
     """
     with Results(folder) as results:
-        return [measured(row) for row in results.finish(study, jobs=jobs)]
-
-
-def measured(row: Row) -> dict[str, Any]:
-    """Metrics of a row; {"error": ...} where the case failed."""
-    return dict(row.metrics) or {"error": row.error}
+        rows = list(results.finish(study, jobs=jobs))
+    failed = [row for row in rows if row.error]
+    if failed:
+        first = f"{failed[0].key}: {failed[0].error}"
+        raise RrnnError(
+            f"{len(failed)} of {len(rows)} cases failed; the first, {first}"
+        )
+    return [dict(row.metrics) for row in rows]
 
 
 def surroundings(command: str) -> str:

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from rrnn_opt.errors import RrnnError
 from rrnn_opt.planning import Problem, plan
 from rrnn_opt.scene.library import scenario
+from rrnn_opt.study import Case
 from rrnn_opt.validation.tables import table_3, table_4
 from rrnn_opt.validation.tables.cell import judged, markdown
 from rrnn_opt.validation.tables.collect import collect
@@ -83,6 +85,25 @@ def test_a_run_goes_on_where_it_stopped(tmp_path):
     assert second["solved"] is True
     assert second["total"] == second["random"] + second["heuristic"]
     assert collect(more, tmp_path) == [first, second]
+
+
+class OneFails:
+    """Three cases, the second of which cannot be measured."""
+
+    name = "one_fails"
+
+    def __iter__(self):
+        return iter([Case("a"), Case("b"), Case("c")])
+
+    def measure(self, case, rng):
+        if case.key == "b":
+            raise RrnnError("no such start")
+        return {"total": 1}
+
+
+def test_no_table_is_made_of_what_is_left_of_a_study(tmp_path):
+    with pytest.raises(RrnnError, match="1 of 3 cases failed; the first, b: .*start"):
+        collect(OneFails(), tmp_path)
 
 
 def test_markdown():

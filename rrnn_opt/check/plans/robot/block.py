@@ -150,6 +150,9 @@ def _pairs(value: Any, links: tuple[str, ...]) -> NDArray[np.int64]:
         pair = [reading.text(x, name) for x in reading.listing(entry, name)]
         if len(pair) != 2:
             raise DocumentError(name, "must be two bodies")
+        for body in pair:
+            if body not in links:
+                raise DocumentError(name, f"no sphere of the robot is of '{body}'")
         first = [i for i, link in enumerate(links) if link == pair[0]]
         second = [i for i, link in enumerate(links) if link == pair[1]]
         rows += [(i, j) for i in first for j in second]

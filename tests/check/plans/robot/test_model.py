@@ -40,6 +40,7 @@ def test_every_robot_is_read(robot):
         (("spheres", 0, "radius"), -0.1, "radius"),
         (("spheres", 0, "center"), [0, 0], "center"),
         (("self_pairs", 0), ["two"], "self_pairs"),
+        (("self_pairs", 0), ["two", "tow"], "no sphere of the robot is of 'tow'"),
         (("limits", "velocity"), [1, 1, 1, 0], "velocity"),
         (("limits", "lower"), [None, None], "lower"),
         (("joint_names",), [], "joint_names"),
