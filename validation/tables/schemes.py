@@ -120,7 +120,7 @@ def _without_bounds(kin: Any) -> Any:
 
 
 def _timed(scheme: Any, what: Task, rule: Any) -> tuple[SimulationResult, float]:
-    """A run, and the lesser of two times of it once it is warm, s; with Python's share."""
+    """A run, and the lesser of two warm times of it, s, with all of Python's share."""
     times = []
     for _ in range(3):
         begin = time.perf_counter()
