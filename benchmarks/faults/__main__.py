@@ -201,6 +201,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--only", default="", help="commands whose name has this")
     parser.add_argument("--page", action="store_true", help="write docs/results")
     args = parser.parse_args(argv)
+    # a job in the background ignores Ctrl-C, and so would the commands that it starts
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     table = {}
     with tempfile.TemporaryDirectory() as name:
         for (title, command), way in (
