@@ -14,6 +14,7 @@ from rrnn_opt.cli.arguments import not_negative, seed
 from rrnn_opt.cli.folders import folder
 from rrnn_opt.cli.output import Output
 
+FILES = ("simulation.csv", "simulation.png", "metrics.json")
 HELP = "track a curve in closed loop with one scheme"
 
 
@@ -54,10 +55,12 @@ def run(args: argparse.Namespace, out: Output) -> int:
     if args.seed is not None:
         noise = replace(noise, seed=args.seed)
     result = simulate(scheme, robot, replace(task, noise=noise), network=network)
-    paths = _write(result, target) if target is not None else []
+    paths = [target / name for name in FILES] if target is not None else []
     document = result.to_dict(paths)
     out.document(document)
     out.say(table(("", args.formulation), _rows(document), indent=2))
+    if target is not None:
+        _write(result, document, target)
     for path in paths:
         out.say(f"wrote {path}")
     return 0 if document["limits_kept"] else 1
@@ -71,16 +74,12 @@ def _rows(document: dict[str, Any]) -> list[tuple[str, str]]:
     ]
 
 
-def _write(result: Any, target: Path) -> list[Path]:
+def _write(result: Any, document: dict[str, Any], target: Path) -> None:
     """CSV, picture and metrics; each appears whole or not at all."""
     from rrnn_opt.report import draw_tracking, write_bytes, write_text
 
-    raw = target / ".simulation.csv.part"
-    try:
-        result.write_csv(raw)
-        paths = [write_bytes(target / "simulation.csv", raw.read_bytes())]
-    finally:
-        raw.unlink(missing_ok=True)
+    table, picture, metrics = (target / name for name in FILES)
+    write_text(table, result.to_csv())
     image = io.BytesIO()
     draw_tracking(
         image,
@@ -90,8 +89,5 @@ def _write(result: Any, target: Path) -> list[Path]:
         share=result.qd / result.robot.limits.velocity,
         title=f"{result.scheme} on {result.robot.name}",
     )
-    paths.append(write_bytes(target / "simulation.png", image.getvalue()))
-    metrics = target / "metrics.json"
-    document = result.to_dict([*paths, metrics])
+    write_bytes(picture, image.getvalue())
     write_text(metrics, json.dumps(document, indent=1, allow_nan=False) + "\n")
-    return [*paths, metrics]

@@ -50,21 +50,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace, out: Output) -> int:
     """0 when every verdict is the expected one, else 1."""
     target = folder(args.out) if args.out is not None else None
+    certificates = None if target is None else Certificates(target)
     printed, others = chosen(args)
     rows: list[dict[str, Any]] = []
     missed: list[str] = []
     for entry in (*printed, *others):
-        row, caught = _row(entry, target, args.seed)
+        row, caught = _row(entry, certificates, args.seed)
         rows.append(row)
         out.note(f"{row['id']} {row['verdict']} ({row['time_s']:.1f} s)")
         missed += [] if caught else [f"{row['id']}: its mutation was not caught"]
     missed += _surprises(rows[: len(printed)]) + _open(rows[len(printed) :])
     evidence = [e.to_dict() for x in (*printed, *others) for e in _evidence(x)]
     document = {"claims": rows, "evidence": evidence}
-    if target is not None:
-        _report(document, target, args)
     out.document(document)
     _say(document, missed, out)
+    if target is not None and certificates is not None:
+        certificates.require_written()
+        _report(document, target, args)
     return 1 if missed else 0
 
 
@@ -127,24 +129,46 @@ def _scheme(args: argparse.Namespace) -> list[Any]:
     return found
 
 
-def _row(entry: Any, target: Path | None, number: int) -> tuple[dict[str, Any], bool]:
+def _row(
+    entry: Any, certificates: Certificates | None, number: int
+) -> tuple[dict[str, Any], bool]:
     """The row of an entry, and whether its mutation was caught."""
     if not hasattr(entry, "settle"):
         return entry.row(), True
     settled = entry.settle(seed=number)
-    return settled.row(
-        place=None if target is None else _writer(target)
-    ), settled.caught
+    return settled.row(place=certificates), settled.caught
 
 
-def _writer(target: Path) -> Any:
-    from rrnn_opt.report import file_name, write_text
+class Certificates:
+    """A folder of certificates; verdicts outlive a disk that fills up.
 
-    def write(name: str, certificate: Mapping[str, Any]) -> str:
+    Args:
+        target: the folder.
+    """
+
+    def __init__(self, target: Path) -> None:
+        self._target = target
+        self._error: OSError | None = None
+
+    def __call__(self, name: str, certificate: Mapping[str, Any]) -> str | None:
+        """Write one; its path, or None where that failed."""
+        from rrnn_opt.report import file_name, write_text
+
         text = json.dumps(certificate, indent=1, allow_nan=False) + "\n"
-        return str(write_text(target / f"{file_name(name)}.json", text))
+        try:
+            return str(write_text(self._target / f"{file_name(name)}.json", text))
+        except OSError as error:
+            self._error = self._error or error
+            return None
 
-    return write
+    def require_written(self) -> None:
+        """Raise what kept the first certificate from being written.
+
+        Raises:
+            OSError: there was such a thing.
+        """
+        if self._error is not None:
+            raise self._error
 
 
 def _surprises(rows: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -133,19 +134,24 @@ class SimulationResult:
             "least_clearance_m": self.least_clearance_m,
         }
 
+    def to_csv(self) -> str:
+        """Table of t, q, qd, tip and reference, one row a control step."""
+        nv = self.robot.nv
+        head = ["t", *_names("q", nv), *_names("qd", nv), "x", "y", "z"]
+        columns = (self.t[:, None], self.q, self.qd, self.tip, self.reference)
+        text = io.StringIO()
+        writer = csv.writer(text)
+        writer.writerow([*head, "xd", "yd", "zd"])
+        writer.writerows(np.hstack(columns).tolist())
+        return text.getvalue()
+
     def write_csv(self, path: str | Path) -> None:
-        """Write t, q, qd, tip and reference, one row a control step.
+        """Write what :meth:`to_csv` gives.
 
         Args:
             path: the file; it is replaced.
         """
-        nv = self.robot.nv
-        head = ["t", *_names("q", nv), *_names("qd", nv), "x", "y", "z"]
-        columns = (self.t[:, None], self.q, self.qd, self.tip, self.reference)
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            writer.writerow([*head, "xd", "yd", "zd"])
-            writer.writerows(np.hstack(columns).tolist())
+        Path(path).write_text(self.to_csv(), "utf-8", newline="")
 
 
 def _names(stem: str, count: int) -> list[str]:

@@ -17,8 +17,8 @@ from rrnn_opt.verification.verdict import Evidence, Status, Verdict
 ESTABLISHED = (Status.PROVED, Status.HOLDS_UNDER)
 Statement = Claim | DecayClaim | Proof
 """What can be settled."""
-Place = Callable[[str, Mapping[str, Any]], str]
-"""Writes a certificate under a name; returns its path."""
+Place = Callable[[str, Mapping[str, Any]], str | None]
+"""Writes a certificate under a name; returns its path, or None where that failed."""
 
 
 @checked()

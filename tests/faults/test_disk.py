@@ -61,6 +61,76 @@ def test_a_full_disk_keeps_the_files_that_were_there(tmp_path):
         assert [row["n"] for row in lines] == [0, 2]
 
 
+RESULTS = {
+    "simulate": (
+        ("simulate", "closed_loop", "--robot", "planar3", "--task", "task.toml"),
+        lambda document: document["rms_error_m"] < 1e-2,
+    ),
+    "verify": (
+        ("verify", "C1", "C2"),
+        lambda document: [row["id"] for row in document["claims"]] == ["C1", "C2"],
+    ),
+}
+TASK = """
+[task]
+kind = "circle"
+radius = 0.05
+period = 1.0
+plane = "xy"
+through = "start"
+
+[robot]
+q0 = [0.3, 0.6, 0.5]
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", RESULTS)
+def test_a_full_disk_keeps_results_on_standard_output(place, name):
+    words, right = RESULTS[name]
+    (place.path / "task.toml").write_text(TASK)
+    with mounted(place.out, "size=4k") as full:
+        run = place.rrnn(*words, "--out", "out", "--json")
+        left = [path for path in full.iterdir() if path.stat().st_size]
+    assert run.returncode == 1
+    assert right(json.loads(run.stdout))
+    assert "No space left" in run.stderr.splitlines()[-1]
+    assert "Traceback" not in run.stderr
+    assert left == []
+
+
+STUDY = ("reproduce", "fig3", "--trials", "2", "--jobs", "1", "--out", "out")
+
+
+@pytest.mark.slow
+def test_a_study_goes_on_once_the_disk_has_room(place):
+    with mounted(place.out, "size=24k") as small:
+        run = place.rrnn(*STUDY)
+        assert run.returncode == 1
+        assert "No space left" in one_sentence(run)
+        shutil.copytree(small, place.path / "kept")
+    shutil.rmtree(place.out)
+    (place.path / "kept").rename(place.out)
+    assert place.rrnn(*STUDY, "--resume").returncode == 0
+    assert (place.out / "fig3.png").stat().st_size > 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "words",
+    [("demo", "--out", "out"), ("view", "plan.json", "--out", "out/plan.html")],
+    ids=["demo", "view"],
+)
+def test_a_full_disk_leaves_no_half_page(place, words):
+    assert place.rrnn("plan", "problem.json", "--out", ".").returncode == 0
+    with mounted(place.out, "size=4k") as full:
+        run = place.rrnn(*words)
+        left = [path for path in full.rglob("*") if path.is_file()]
+    assert run.returncode == 1
+    assert "No space left" in one_sentence(run)
+    assert all(path.stat().st_size == 0 for path in left)
+
+
 @pytest.mark.slow
 def test_read_only_folders_are_refused_before_the_work(place):
     with mounted(place.out, "size=64k,ro"):
