@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -45,11 +46,13 @@ class Benchmark:
         name: of the files.
         notes: what a reader must know, in plain sentences.
         rows: measured so far.
+        about: machine, versions and commit, as they were before the first row.
     """
 
     name: str
     notes: str = ""
     rows: list[Row] = field(default_factory=list)
+    about: dict[str, Any] = field(default_factory=lambda: surroundings())
 
     def add(self, *rows: Row) -> None:
         """Append rows."""
@@ -58,7 +61,7 @@ class Benchmark:
     def write(self, folder: Path = RESULTS) -> Path:
         """Write NAME.json and NAME.md; returns the Markdown file."""
         folder.mkdir(parents=True, exist_ok=True)
-        head = {"benchmark": self.name, "notes": self.notes, **surroundings()}
+        head = {"benchmark": self.name, "notes": self.notes, **self.about}
         document = head | {"rows": [asdict(row) for row in self.rows]}
         text = json.dumps(document, indent=1) + "\n"
         (folder / f"{self.name}.json").write_text(text)
@@ -68,14 +71,14 @@ class Benchmark:
 
     def markdown(self) -> str:
         """The rows as a table under the machine they were measured on."""
-        about = surroundings()
-        versions = ", ".join(f"{k} {v}" for k, v in about["versions"].items())
+        about = self.about
+        known = ", ".join(f"{k} {v}" for k, v in about["versions"].items())
         lines = [
             f"# {self.name}",
             "",
             self.notes,
             "",
-            f"{about['cpu']}, {about['cores']} cores; {about['compiler']}; {versions};"
+            f"{about['cpu']}, {about['cores']} cores; {about['compiler']}; {known};"
             f" commit {about['commit']}, {about['date']}.",
             "",
             "| what | value | ratio |",
@@ -99,7 +102,7 @@ def ratio(row: Row) -> str:
     return "" if row.ratio is None else f"{row.ratio:.3g}"
 
 
-def surroundings() -> dict:
+def surroundings() -> dict[str, Any]:
     """Machine, versions, commit and date."""
     from rrnn_opt.emit import find_compiler
 
