@@ -38,6 +38,21 @@ class Row:
     ratio: float | None = None
 
 
+def surroundings() -> dict[str, Any]:
+    """Machine, versions, commit and date."""
+    from rrnn_opt.emit import find_compiler
+
+    return {
+        "cpu": _cpu(),
+        "cores": os.cpu_count(),
+        "system": platform.platform(),
+        "compiler": find_compiler().version,
+        "versions": {"python": platform.python_version()} | versions(PACKAGES),
+        "commit": commit() or "unknown",
+        "date": datetime.date.today().isoformat(),
+    }
+
+
 @dataclass
 class Benchmark:
     """A titled set of rows.
@@ -52,7 +67,7 @@ class Benchmark:
     name: str
     notes: str = ""
     rows: list[Row] = field(default_factory=list)
-    about: dict[str, Any] = field(default_factory=lambda: surroundings())
+    about: dict[str, Any] = field(default_factory=surroundings)
 
     def add(self, *rows: Row) -> None:
         """Append rows."""
@@ -100,21 +115,6 @@ def shown(row: Row) -> str:
 
 def ratio(row: Row) -> str:
     return "" if row.ratio is None else f"{row.ratio:.3g}"
-
-
-def surroundings() -> dict[str, Any]:
-    """Machine, versions, commit and date."""
-    from rrnn_opt.emit import find_compiler
-
-    return {
-        "cpu": _cpu(),
-        "cores": os.cpu_count(),
-        "system": platform.platform(),
-        "compiler": find_compiler().version,
-        "versions": {"python": platform.python_version()} | versions(PACKAGES),
-        "commit": commit() or "unknown",
-        "date": datetime.date.today().isoformat(),
-    }
 
 
 def seconds_each(call: Callable[[], object], *, calls: int, repeats: int = 15) -> float:
