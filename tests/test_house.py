@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,12 @@ LONG_FUNCTIONS = {
 """Functions whose body is longer, and why parting them would not make them clearer."""
 LONG_FILES: dict[str, str] = {}
 """Files that are longer, and why."""
+OWN_FOLDERS = {
+    "faults": "what breaks from outside, whatever the room",
+    "fuzz": "inputs that were bad once, whatever the room",
+    "study/importable": "a study as a user's module has it",
+}
+"""Folders of tests that mirror no room, and why."""
 
 
 def sources(*endings: str) -> list[Path]:
@@ -66,6 +73,28 @@ def test_files_are_short_but_for_those_named():
         if len(path.read_text("utf-8").splitlines()) > FILE_LINES
     }
     assert found == set(LONG_FILES), "mend the file, or the list"
+
+
+def test_folders_of_tests_mirror_the_rooms():
+    rooms = {
+        place.relative_to(root).as_posix()
+        for root in (ROOT, ROOT / "rrnn_opt")
+        for place in (*root.glob("*"), *root.glob("*/**"))
+        if place.is_dir()
+    }
+    tests = ROOT / "tests"
+    inner = {path.parent.relative_to(tests).as_posix() for path in tests.rglob("*.py")}
+    assert inner - rooms - {"."} == set(OWN_FOLDERS)
+
+
+def test_every_test_that_a_script_or_a_page_names_is_there():
+    named = {
+        (path, word)
+        for path in (*ROOT.glob(".ci/*"), *ROOT.glob("docs/*.md"), ROOT / "Makefile")
+        for word in re.findall(r"\btests/[\w/.]*\w(?![\w*])", path.read_text("utf-8"))
+    }
+    assert len(named) > 10
+    assert [pair for pair in named if not (ROOT / pair[1]).exists()] == []
 
 
 @pytest.mark.parametrize(("lines", "long"), [(30, False), (31, True)])
