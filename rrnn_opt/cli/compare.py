@@ -46,7 +46,7 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--jobs", type=count, default=1, help="worker processes; default %(default)s")
     add("--dask", metavar="ADDRESS", help="of a Dask scheduler instead")
-    add("--out", metavar="DIR", default="runs/{}", help="%(default)s")
+    add("--out", metavar="DIR", default="runs/{}", help="default runs/COMMAND")
     add("--resume", action="store_true", help="go on in DIR")
     add("--seed", type=seed, default=0, help="default 0")
 
@@ -163,7 +163,7 @@ def _said(out: Output, study: Any, rows: list[Any], paths: tuple[Path, ...]) -> 
     out.document({"rows": found, "files": [str(path) for path in paths]})
     head = ("set", "solver", "mode", "n", "solved", "p50 us", "worst us")
     lines = []
-    for row in found:
+    for row in (row for row in found if row["n"]):  # neither infeasible nor failed
         times = row["time_us"] or {}
         given = (row["stream"], row["solver"], row["mode"], row["n"], row["solved"])
         lines.append((*given, times.get("p50"), times.get("max")))
