@@ -15,7 +15,7 @@ from rrnn_opt.arguments import checked
 from rrnn_opt.emit import build, load, prologue
 from rrnn_opt.emit.active_set import FIELDS, Factor, active_set_source
 from rrnn_opt.solving.backends import SolverReport, solution
-from rrnn_opt.solving.dense_session import DenseSession, require_setup
+from rrnn_opt.solving.dense_session import DenseSession, require_mode, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
 
@@ -106,12 +106,19 @@ class ActiveSet(DenseSession):
             is not the last one.
         tolerance: KKT residual that counts as solved, in the unit of the rows.
         name: what tables call it; not for the caller to set.
+
+    Raises:
+        ArgumentError: there is no such mode.
     """
 
     mode: str = "cold"
     tolerance: float = 1e-6
     name: str = field(default="active_set", init=False)
     _factor: Factor | None = field(default=None, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Refuse an unknown mode."""
+        require_mode(self.mode, "cold", "stream")
 
     def setup(self, instance: Instance) -> None:
         """Take the first instance; its C is compiled."""

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.arguments import checked
-from rrnn_opt.solving.dense_session import require_setup
+from rrnn_opt.solving.dense_session import require_mode, require_setup
 from rrnn_opt.solving.infeasible import find_farkas
 from rrnn_opt.solving.parts import Array, Dense, Duals, handed
 from rrnn_opt.solving.protocol import Instance, Solution
@@ -109,6 +109,9 @@ class Qpsolvers:
         tolerance: KKT residual that counts as solved.
         mode: "cold", or "warm": told its last answer as a start (``initvals``,
             which some back ends do not read).
+
+    Raises:
+        ArgumentError: there is no such mode.
     """
 
     name: str
@@ -117,6 +120,10 @@ class Qpsolvers:
     mode: str = "cold"
     _instance: Instance | None = field(default=None, init=False, repr=False)
     _last: Array | None = field(default=None, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Refuse an unknown mode."""
+        require_mode(self.mode, "cold", "warm")
 
     def setup(self, instance: Instance) -> None:
         """Take the first instance; the last answer is forgotten."""

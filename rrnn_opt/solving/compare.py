@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rrnn_opt.arguments import checked
+from rrnn_opt.arguments import checked, require_parts
+from rrnn_opt.errors import ArgumentError
 from rrnn_opt.solving.parts import Array, Dense
 from rrnn_opt.solving.protocol import Instance, Solution, Solver
 from rrnn_opt.solving.residual import Residual
@@ -32,11 +33,19 @@ class Tolerances:
         primal: largest difference in x (a joint velocity: rad/s or m/s).
         dual: largest difference in a multiplier that is unique.
         residual: largest KKT residual.
+
+    Raises:
+        ArgumentError: one is negative.
     """
 
     primal: float = 1e-6
     dual: float = 1e-5
     residual: float = 1e-6
+
+    def __post_init__(self) -> None:
+        """Refuse what no difference can be within."""
+        if min(self.primal, self.dual, self.residual) < 0.0:
+            raise ArgumentError("tolerances", "expected numbers of at least 0")
 
 
 @dataclass(frozen=True)
@@ -84,7 +93,13 @@ def compare(
     Returns:
         One row a QP and solver, QP by QP; the first solver's differences from
         itself are zero.
+
+    Raises:
+        ArgumentError: one of the solvers is none, such as a name: write
+            ``Qpsolvers("osqp")``.
     """
+    for solver in solvers:
+        require_parts(solver, "solvers", ("setup", "update", "solve", "name", "mode"))
     limits = Tolerances() if tolerances is None else tolerances
     rows: list[Comparison] = []
     for index, instance in enumerate(stream.instances):

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.solving.backends import SolverReport, solution
-from rrnn_opt.solving.dense_session import DenseSession, require_setup
+from rrnn_opt.solving.dense_session import DenseSession, require_mode, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
 
@@ -39,6 +39,9 @@ class CasadiConic(DenseSession):
         mode: "stream": made once, then started from its last answer; "cold": made
             anew for every problem.
         tolerance: KKT residual that counts as solved.
+
+    Raises:
+        ArgumentError: there is no such mode.
     """
 
     plugin: str
@@ -46,6 +49,10 @@ class CasadiConic(DenseSession):
     tolerance: float = 1e-6
     _call: Any = field(default=None, init=False, repr=False)
     _start: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Refuse an unknown mode."""
+        require_mode(self.mode, "stream", "cold")
 
     @property
     def name(self) -> str:

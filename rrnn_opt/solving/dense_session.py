@@ -1,11 +1,11 @@
-"""What all solvers of dense programmes have in common: the programme at hand."""
+"""What solvers have in common: the programme at hand, and modes that exist."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from typing import TypeVar
 
-from rrnn_opt.errors import RrnnError
+from rrnn_opt.errors import ArgumentError, RrnnError
 from rrnn_opt.solving.parts import Dense
 from rrnn_opt.solving.protocol import Instance
 
@@ -21,6 +21,20 @@ def require_setup(given: T | None) -> T:
     if given is None:
         raise RrnnError("call setup(instance) before solve()")
     return given
+
+
+def require_mode(given: str, *known: str) -> None:
+    """Refuse a mode that a solver does not have.
+
+    Args:
+        given: what was asked for.
+        known: the solver's modes.
+
+    Raises:
+        ArgumentError: it is none of them.
+    """
+    if given not in known:
+        raise ArgumentError("mode", f"'{given}' is none of {', '.join(known)}")
 
 
 @dataclass

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from rrnn_opt.arguments import checked
 from rrnn_opt.solving.backends import TIGHT, SolverReport, solution
-from rrnn_opt.solving.dense_session import DenseSession, require_setup
+from rrnn_opt.solving.dense_session import DenseSession, require_mode, require_setup
 from rrnn_opt.solving.parts import Array, Dense, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
 
@@ -47,6 +47,9 @@ class OsqpSession(DenseSession):
         settings: OSQP's own; the tight ones by default.
         tolerance: KKT residual that counts as solved, in the unit of the rows.
         name: what tables call it; not for the caller to set.
+
+    Raises:
+        ArgumentError: there is no such mode.
     """
 
     mode: str = "warm"
@@ -54,6 +57,10 @@ class OsqpSession(DenseSession):
     tolerance: float = 1e-6
     name: str = field(default="osqp", init=False)
     _solver: Any = field(default=None, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Refuse an unknown mode."""
+        require_mode(self.mode, "warm", "cold")
 
     def setup(self, instance: Instance) -> None:
         """Give OSQP the problem, every entry of the matrices kept."""
@@ -112,6 +119,9 @@ class DaqpSession(DenseSession):
         settings: DAQP's own; the tight ones by default.
         tolerance: KKT residual that counts as solved, in the unit of the rows.
         name: what tables call it; not for the caller to set.
+
+    Raises:
+        ArgumentError: there is no such mode.
     """
 
     mode: str = "warm"
@@ -120,6 +130,10 @@ class DaqpSession(DenseSession):
     name: str = field(default="daqp", init=False)
     _model: Any = field(default=None, init=False, repr=False)
     _fresh: bool = field(default=False, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Refuse an unknown mode."""
+        require_mode(self.mode, "warm", "cold")
 
     def setup(self, instance: Instance) -> None:
         """Give DAQP the problem."""

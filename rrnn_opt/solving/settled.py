@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from rrnn_opt.arguments import checked
 from rrnn_opt.dynamics import Dynamics
-from rrnn_opt.solving.dense_session import require_setup
+from rrnn_opt.solving.dense_session import require_mode, require_setup
 from rrnn_opt.solving.network import restable
 from rrnn_opt.solving.parts import Array, Duals
 from rrnn_opt.solving.protocol import Instance, Solution
@@ -23,6 +23,9 @@ class SettledNetwork:
         mode: "warm" starts where the last instance settled, "cold" at zero.
         tolerance: on the KKT residual.
         name: in tables.
+
+    Raises:
+        ArgumentError: there is no such mode.
     """
 
     dynamics: Dynamics
@@ -31,6 +34,10 @@ class SettledNetwork:
     name: str = "network"
     _instance: Instance | None = field(default=None, init=False, repr=False)
     _state: Array | None = field(default=None, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Refuse an unknown mode."""
+        require_mode(self.mode, "warm", "cold")
 
     def setup(self, instance: Instance) -> None:
         """Compile the network's loop (or find it compiled)."""

@@ -1,11 +1,14 @@
 import warnings
+from functools import partial
 
 import numpy as np
 import pytest
 import qpsolvers
 
-from rrnn_opt.errors import RrnnError
+from rrnn_opt.errors import ArgumentError, RrnnError
+from rrnn_opt.solving.active_set import ActiveSet
 from rrnn_opt.solving.backends import TIGHT, Qpsolvers
+from rrnn_opt.solving.conic import CasadiConic
 from rrnn_opt.solving.parts import OSQP_JUNK
 from rrnn_opt.solving.protocol import Instance
 from rrnn_opt.solving.sessions import DaqpSession, OsqpSession
@@ -39,6 +42,22 @@ def solvers():
 
 
 MODES = ("warm", "cold")
+
+
+KINDS = {
+    "OsqpSession": OsqpSession,
+    "DaqpSession": DaqpSession,
+    "ActiveSet": ActiveSet,
+    "Qpsolvers": partial(Qpsolvers, "osqp"),
+    "CasadiConic": partial(CasadiConic, "osqp"),
+}
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_misspelt_mode_is_refused(name):
+    """It would run cold, and be called what it was misspelt to."""
+    with pytest.raises(ArgumentError, match="'wram' is none of"):
+        KINDS[name](mode="wram")
 
 
 @pytest.mark.parametrize("solver", solvers(), ids=lambda s: f"{s.name}-{s.mode}")

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import qpsolvers
 
+from rrnn_opt.errors import ArgumentError
 from rrnn_opt.solving import (
     DaqpSession,
     Instance,
@@ -92,6 +93,15 @@ def test_agreement_on_infeasibility_is_agreement():
     assert all(row.agrees for row in rows)
     assert all(row.status is Status.PRIMAL_INFEASIBLE for row in rows)
     assert all(np.isnan(row.primal) for row in rows)
+
+
+def test_what_is_no_solver_and_no_tolerance_is_refused(network, stream):
+    with pytest.raises(ArgumentError, match="'osqp' has no setup"):
+        compare(stream, [DaqpSession(), "osqp"])
+    with pytest.raises(ArgumentError, match="at least 0"):
+        Tolerances(dual=-1.0)
+    with pytest.raises(ArgumentError, match="'hot' is none of"):
+        SettledNetwork(network, "hot")
 
 
 def test_a_missing_solver_does_not_agree():
