@@ -32,6 +32,7 @@ from rrnn_opt.report import write_text
 from rrnn_opt.scene.library import scenario
 from rrnn_opt.study import Case, run, wilson
 from rrnn_opt.validation.ending import ended
+from rrnn_opt.validation.tables.collect import metrics_of
 
 Array = NDArray[np.float64]
 SCENARIO = "raven_opening"
@@ -108,8 +109,11 @@ def raven_rows(starts: int = 1000, *, jobs: int = 1) -> list[dict[str, Any]]:
     Args:
         starts: how many.
         jobs: worker processes.
+
+    Raises:
+        RrnnError: a start could not be run.
     """
-    return [dict(row.metrics) for row in run(RavenTrials(starts), jobs=jobs)]
+    return metrics_of(list(run(RavenTrials(starts), jobs=jobs)))
 
 
 def page(rows: Sequence[Mapping[str, Any]], command: str) -> str:

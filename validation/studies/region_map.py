@@ -2,8 +2,9 @@
 
     python -m rrnn_opt.validation.studies.region_map --robot pa10 --out DIR
 
-Every finished tile is a line of DIR/tiles.jsonl; a run that is stopped goes on
-with the next one.  At the end DIR/map.json and DIR/map.png hold the whole map.
+Every finished tile is a line of DIR/tiles.jsonl with what was asked; a run that
+is stopped goes on with the tiles that are missing, and takes none of another robot,
+region or law.  At the end DIR/map.json and DIR/map.png hold the whole map.
 The region is the robot's working box (``--half-width``), or with ``--whole`` all
 of its position limits, where singular postures stay open, as they must.
 """
@@ -14,7 +15,9 @@ import argparse
 import json
 import sys
 import time
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,9 +27,11 @@ from rrnn_opt.report import draw_region, write_text
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.study import Lines
 from rrnn_opt.validation.ending import ended
+from rrnn_opt.verification.engines.interval.kernel import Array
 from rrnn_opt.verification.region import Region, RegionCell, RegionMap
 from rrnn_opt.verification.region.cell import Law, Tools, certify_cell
 from rrnn_opt.verification.region.certify import (
+    Tile,
     assumptions_of,
     telling_joints,
     tiles,
@@ -54,18 +59,19 @@ def main() -> int:
     """Go on where the last run ended."""
     given = _arguments()
     kinematics = Kinematics(Robot.builtin(given.robot))
-    region = (
-        _whole(kinematics)
-        if given.whole
-        else Region.working(kinematics, half_width=given.half_width)
-    )
+    region = _region(kinematics, given)
     law = Law(given.epsilon, given.error, None, 0.5, given.floor)
     tools = Tools.of(kinematics, None)
     pair = telling_joints(tools, region)
     given.out.mkdir(parents=True, exist_ok=True)
     begin = time.monotonic()
-    cells = _finished(given, tools, law, list(tiles(region, pair, (given.grid,) * 2)))
-    spent = time.monotonic() - begin
+    lines, work = (
+        Lines(given.out / "tiles.jsonl"),
+        tiles(region, pair, (given.grid,) * 2),
+    )
+    asked = {"robot": given.robot, "region": asdict(region), "law": asdict(law)}
+    certified = partial(_certified, given, tools, law)
+    cells = finished(lines, asked, list(work), certified)
     found = RegionMap(
         kinematics.robot.name,
         region,
@@ -75,23 +81,49 @@ def main() -> int:
         law.floor,
         cells,
         assumptions_of(law),
-        spent,
+        time.monotonic() - begin,
     )
     _write(found, given.out)
     sys.stdout.write(_told(found))
     return 0
 
 
-def _finished(
-    given: argparse.Namespace, tools: Tools, law: Law, work: list[tuple[Any, Any, Any]]
+def finished(
+    lines: Lines,
+    asked: Mapping[str, Any],
+    work: Sequence[tuple[Array, Array, Tile]],
+    certified: Callable[[tuple[Array, Array, Tile]], RegionCell],
 ) -> tuple[RegionCell, ...]:
-    """All tiles: those that stand in the folder, then what is left of the work."""
-    lines = Lines(given.out / "tiles.jsonl")
-    done = sum(1 for _ in lines)
-    for item in work[done:]:
-        cell = certify_cell(tools, law, *item, seconds=given.tile_seconds)
-        lines.append(asdict(cell))
-    return tuple(_cell(line) for line in lines)
+    """All tiles: those that are kept with the same question, and what is left.
+
+    Args:
+        lines: kept tiles, each with what was asked.
+        asked: robot, region and law, as JSON holds them.
+        work: the tiles.
+        certified: makes the cell of a tile.
+    """
+    asked = json.loads(json.dumps(asked))
+    kept = {_ends(r["cell"]): r["cell"] for r in lines if r.get("asked") == asked}
+    for item in work:
+        if item[2] not in kept:
+            kept[item[2]] = asdict(certified(item))
+            lines.append({"asked": asked, "cell": kept[item[2]]})
+    return tuple(_cell(kept[item[2]]) for item in work)
+
+
+def _certified(
+    given: argparse.Namespace,
+    tools: Tools,
+    law: Law,
+    item: tuple[Array, Array, Tile],
+) -> RegionCell:
+    return certify_cell(tools, law, *item, seconds=given.tile_seconds)
+
+
+def _ends(row: Mapping[str, Any]) -> Tile:
+    """The tile of a kept cell."""
+    (a, b), (c, d) = row["lower"], row["upper"]
+    return (a, b), (c, d)
 
 
 def _arguments() -> argparse.Namespace:
@@ -108,8 +140,10 @@ def _arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def _whole(kinematics: Kinematics) -> Region:
-    """All positions; a continuous joint once round."""
+def _region(kinematics: Kinematics, given: argparse.Namespace) -> Region:
+    """The working box, or all positions; a continuous joint once round."""
+    if not given.whole:
+        return Region.working(kinematics, half_width=given.half_width)
     limits = kinematics.robot.limits
     low, high = np.maximum(limits.lower, -np.pi), np.minimum(limits.upper, np.pi)
     centre, half = 0.5 * (low + high), 0.499 * (high - low)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import platform
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 from rrnn_opt.errors import RrnnError
-from rrnn_opt.study import Results, Study, processor
+from rrnn_opt.study import Results, Row, Study, processor
 
 
 def collect(study: Study, folder: Path, *, jobs: int = 1) -> list[dict[str, Any]]:
@@ -28,7 +29,15 @@ def collect(study: Study, folder: Path, *, jobs: int = 1) -> list[dict[str, Any]
         RrnnError: cases failed; a table of the others would not be of the study.
     """
     with Results(folder) as results:
-        rows = list(results.finish(study, jobs=jobs))
+        return metrics_of(list(results.finish(study, jobs=jobs)))
+
+
+def metrics_of(rows: Sequence[Row]) -> list[dict[str, Any]]:
+    """Metrics of each row.
+
+    Raises:
+        RrnnError: cases failed; a table of the others would not be of the study.
+    """
     failed = [row for row in rows if row.error]
     if failed:
         first = f"{failed[0].key}: {failed[0].error}"
