@@ -37,7 +37,7 @@ static inline void hildreth_row(int n, const real_t *row, real_t h, real_t *lamb
         const real_t wanted = *lambda + (h - hildreth_dot(n, row, u)) / norm2;
         const real_t next = wanted > 0 ? wanted : 0;
         const real_t change = next - *lambda;
-        for (int k = 0; k < n; k++) {
+        for (int k = 0; k < n && change != 0; k++) {
             u[k] += change * row[k];
         }
         *lambda = next;
