@@ -11,9 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rrnn_opt import emit
+from rrnn_opt.emit.compiler import cpu_name
 from rrnn_opt.errors import RrnnError
 from rrnn_opt.networks import MemoryCell
 from rrnn_opt.planning.kernel.source import PREFIX, source
+from rrnn_opt.planning.search.flags import build_flags
 from rrnn_opt.planning.search.structs import (
     NEAR_MAX,
     Closest,
@@ -30,11 +32,6 @@ from rrnn_opt.robot import Robot
 
 Array = NDArray[np.float64]
 Tree = tuple[Array, NDArray[np.int64]]
-FLAGS = ("-O3", "-ffp-contract=fast")
-"""Loops over lanes vectorise at this level; products and sums may be fused, which
-rounds once where two roundings are allowed for.  No fast-math."""
-GCC_FLAGS = ("--param=max-completely-peel-times=7",)
-"""Without it gcc unrolls a short loop over eight lanes before it could vectorise it."""
 SLICE_S = 0.02
 """A search returns to Python so often, for progress and for signals."""
 STATUS = {
@@ -46,10 +43,6 @@ STATUS = {
 }
 
 
-def _flags() -> tuple[str, ...]:
-    return FLAGS + GCC_FLAGS if emit.find_compiler().kind == "gcc" else FLAGS
-
-
 class Runtime:
     """The compiled planner of one robot; stateless, any number of searches."""
 
@@ -57,8 +50,9 @@ class Runtime:
         self._load(robot, source(robot, cell), f"planner_{robot.nv}")
 
     def _load(self, robot: Robot, text: str, name: str) -> None:
+        flags = build_flags(emit.find_compiler().kind, cpu_name())
         self.robot = robot
-        self.built = emit.build(text, name=name, flags=_flags())
+        self.built = emit.build(text, name=name, flags=flags)
         self._library = emit.load(self.built)
 
     def function(self, name: str, result: Any, *arguments: Any) -> Any:

@@ -1,5 +1,6 @@
 """The runtime's steps and segments against independent answers."""
 
+import itertools
 import re
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import rrnn_opt as rr
 from rrnn_opt.formulations import slide
 from rrnn_opt.planning import Problem, RandomRnn
 from rrnn_opt.planning.kernel.source import RUNTIME
+from rrnn_opt.planning.search import library
 from rrnn_opt.robot.motion_bound import motion_bound, travel
 from rrnn_opt.robot.reach import ancestor_mask, reach
 
@@ -145,3 +147,16 @@ def test_runtime_holds_no_formula():
         numbers = set(re.findall(r"(?<![\w.])\d+\.\d+(?:e[-+]?\d+)?", text))
         known = {"0.0", "0.5", "1.0", "2.0", "1.25", "1.6", "9007199254740992.0"}
         assert numbers <= known | {"1e300"}, (name, numbers)
+
+
+def test_a_planner_built_for_a_cpu_without_masks_proves_its_way(
+    pa10, pa10_runtime, window_problem, open_search, monkeypatch
+):
+    monkeypatch.setattr(library, "cpu_name", lambda: "x86_64 avx2")
+    unmasked = library.Runtime(pa10, RandomRnn().cell)
+    problem = Problem.from_dict(window_problem())
+    with open_search(unmasked, problem) as search:
+        assert search.run(20_000, 10.0) == "solved"
+        path = search.path()
+    with open_search(pa10_runtime, problem) as search:
+        assert all(search.segment_free(a, b) for a, b in itertools.pairwise(path))
