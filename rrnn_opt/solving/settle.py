@@ -104,8 +104,9 @@ def settle(
         how it went.
 
     Raises:
-        RrnnError: the network comes from no formulation, or a parameter is
-            missing, unknown, of the wrong shape or not finite.
+        RrnnError: the network comes from no formulation; a parameter is missing,
+            unknown, of the wrong shape or not finite; or the tolerance or the
+            step is not positive.
         ShapeError: the start is not a state of the network.
     """
     return settle_at(
@@ -146,6 +147,10 @@ def settle_at(
     Raises:
         RrnnError: as ``settle``.
     """
+    if not (tolerance > 0.0 and (step is None or step > 0.0)):
+        raise RrnnError(
+            f"settle: tolerance {tolerance}, step {step}: give positive ones"
+        )
     form, dyn = _formulation(dyn), dyn.frozen
     values = arguments(dyn.parameters, parameters, "settle")
     try:

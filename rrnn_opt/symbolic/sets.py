@@ -35,7 +35,7 @@ class Box(ConvexSet):
 
     Raises:
         ShapeError: the sides differ in shape, or are no columns.
-        RrnnError: both sides are numbers and ``lower > upper`` somewhere.
+        RrnnError: both sides are numbers, with none between them somewhere.
     """
 
     lower: Value
@@ -47,9 +47,13 @@ class Box(ConvexSet):
             raise ShapeError("lower side of the box", (1,), ())
         require_shape(self.lower, (self.n, 1), "lower side of the box")
         require_shape(self.upper, (self.n, 1), "upper side of the box")
-        numeric = not is_symbolic(self.lower) and not is_symbolic(self.upper)
-        if numeric and not np.all(np.asarray(self.lower) <= np.asarray(self.upper)):
-            raise RrnnError("box: lower exceeds upper (or is NaN); it is empty")
+        if is_symbolic(self.lower) or is_symbolic(self.upper):
+            return
+        low, high = np.asarray(self.lower), np.asarray(self.upper)
+        if not np.all((low <= high) & (low < np.inf) & (high > -np.inf)):
+            raise RrnnError(
+                "box: it is empty, no number lies between its sides (or one is NaN)"
+            )
 
     @property
     def n(self) -> int:

@@ -158,6 +158,12 @@ def test_bad_parameters_are_named(network, posture):
         settle(network, q=posture, rd_dot=[np.nan, 0.0, 0.0])
 
 
+@pytest.mark.parametrize("bad", [{"step": 0.0}, {"step": -1.0}, {"tolerance": 0.0}])
+def test_a_step_or_tolerance_that_is_not_positive_is_refused(network, posture, bad):
+    with pytest.raises(RrnnError, match="give positive ones"):
+        settle(network, q=posture, rd_dot=[0.0, 0.0, 0.0], **bad)
+
+
 def test_a_network_without_a_formulation_is_refused():
     x = rr.Symbol.vector("x", 1, "1", "state")
     bare = rr.NeuralDynamics(

@@ -153,6 +153,9 @@ def test_bad_sets_are_refused():
         Box(np.array([1.0]), np.array([0.0]))
     with pytest.raises(RrnnError, match="NaN"):
         Box(np.array([np.nan]), np.array([0.0]))
+    for end in (np.inf, -np.inf):
+        with pytest.raises(RrnnError, match="empty"):
+            Box(np.array([end]), np.array([end]))
     with pytest.raises(ShapeError):
         Box(np.zeros(2), np.zeros(3))
     with pytest.raises(ShapeError):

@@ -30,6 +30,7 @@ from rrnn_opt.validation.tables.trials import SCENARIOS
 Array = NDArray[np.float64]
 STARTS = 50
 RANDOM_REST, FAILING = 1 - 0.9 / 0.95, 0.6413
+"""Where the cell (14) rests under I = 0, 1 - A/w, and under I = 1."""
 
 
 def activities(
