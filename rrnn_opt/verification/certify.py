@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
+
+import numpy as np
 
 from rrnn_opt.arguments import checked
 from rrnn_opt.check.claims.answer import UNKNOWN
@@ -78,13 +80,13 @@ def certify(
         The verdict.  UNKNOWN lists in ``residue`` what stopped each engine.
 
     Raises:
-        RrnnError: an engine is not known, a witness lacks a variable, or holds
-            a number that is not finite.
+        RrnnError: an engine is not known, a witness lacks a variable, or gives
+            it what is no list of its size of finite numbers.
     """
     begin = time.perf_counter()
     chosen = _chosen(engines, claim)
     for point in witnesses:
-        _require_names(claim, point)
+        _require_point(claim, point)
     fingerprint = ""
     residue: dict[str, str] = {}
     try:
@@ -115,12 +117,16 @@ def _chosen(
     return tuple(e for e in fit if names is None or e.name in names)
 
 
-def _require_names(claim: Claim | DecayClaim, point: Witness) -> None:
+def _require_point(claim: Claim | DecayClaim, point: Witness) -> None:
     if isinstance(claim, DecayClaim):
         raise RrnnError(f"{claim.id}: a claim of decay takes no witnesses")
     names = {symbol.name for symbol in claim.variables}
-    if set(point) != names:
+    if not isinstance(point, Mapping) or set(point) != names:
         raise RrnnError(f"{claim.id}: a witness names {', '.join(sorted(names))}")
+    for symbol in claim.variables:
+        if np.shape(np.array(point[symbol.name], object)) != (symbol.size,):
+            want = f"{symbol.size} numbers, column by column"
+            raise RrnnError(f"{claim.id}: a witness gives '{symbol.name}' {want}")
 
 
 def _answers(

@@ -13,7 +13,8 @@ from rrnn_opt.check.claims.answer import UNKNOWN
 from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.claim import Claim
 from rrnn_opt.decay import DecayClaim
-from rrnn_opt.errors import UndecidedError, UnsupportedOperationError
+from rrnn_opt.errors import RrnnError, UndecidedError, UnsupportedOperationError
+from rrnn_opt.symbolic.symbol import Symbol, require_declared
 from rrnn_opt.symbolic.tape import Tape
 from rrnn_opt.verification.certify import certify
 from rrnn_opt.verification.document import (
@@ -103,6 +104,10 @@ class Proof:
         Returns:
             The verdict; UNKNOWN names the lemma or the step that failed.  A
             lemma that is the claim itself may refute it.
+
+        Raises:
+            RrnnError: a term uses a lemma that is not there or lacks an argument
+                of it, or depends on what is no variable of the claim.
         """
         begin = time.perf_counter()
         fingerprint = self.claim.fingerprint
@@ -141,6 +146,9 @@ class Proof:
         Args:
             parts: certificates of the lemmas, in order.
             seed: of the search for a point that keeps the hypotheses.
+
+        Raises:
+            RrnnError: as ``settle``.
         """
         payload = {
             "parts": list(parts),
@@ -156,6 +164,8 @@ class Proof:
         pieces: list[ca.SX] = []
         elements = [[self._term(term, pieces) for term in row] for row in self.terms]
         symbols = self.claim.variables
+        terms = ca.vertcat(ca.SX(0, 1), *pieces)
+        require_declared(terms, symbols, f"{self.claim.id}: terms")
         names = [s.name for s in symbols]
         results = [f"e{k}" for k in range(len(pieces))]
         inputs = [s.sx for s in symbols]
@@ -182,11 +192,23 @@ class Proof:
                 "output": output,
                 "element": term.element,
             }
-        variables = _claim(self.lemmas[term.lemma]).variables
+        variables = self._variables(term)
         columns = [ca.vec(ca.SX(term.arguments[s.name])) for s in variables]
         arguments = [ref(x) for column in columns for x in ca.vertsplit(column)]
         where = {"part": term.lemma, "element": term.element}
         return row | where | {"use": "lemma", "arguments": arguments}
+
+    def _variables(self, term: Instance) -> tuple[Symbol, ...]:
+        """Variables of the lemma that a term uses, if it has arguments for them."""
+        if not 0 <= term.lemma < len(self.lemmas):
+            count = len(self.lemmas)
+            raise RrnnError(f"{self.claim.id}: lemma {term.lemma} of {count}, from 0")
+        lemma = _claim(self.lemmas[term.lemma])
+        names = {s.name for s in lemma.variables}
+        if set(term.arguments) != names:
+            listed = ", ".join(sorted(names))
+            raise RrnnError(f"{self.claim.id}: lemma '{lemma.id}' is of {listed}")
+        return lemma.variables
 
 
 def settle(statement: Claim | DecayClaim | Proof, *, seed: int = 0) -> Verdict:

@@ -74,7 +74,16 @@ def test_given_witnesses_come_first_and_are_exact():
     assert verdict.witness == {"x": ["1/3"], "y": [str(Fraction(0.1)), "0"]}
 
 
-@pytest.mark.parametrize("bad", [{"x": [1]}, {"x": [np.nan], "y": [0, 0]}])
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"x": [1]},
+        {"x": [np.nan], "y": [0, 0]},
+        {"x": [1], "y": [0]},
+        {"x": 1, "y": [0, 0]},
+        "x",
+    ],
+)
 def test_bad_witnesses_are_named(bad):
     with pytest.raises(RrnnError, match="witness"):
         certify(claim(x, ">=0"), witnesses=(bad,))

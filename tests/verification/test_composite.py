@@ -12,7 +12,7 @@ import pytest
 
 from rrnn_opt.check.claims.certificate import check_certificate
 from rrnn_opt.claim import Claim, Hypothesis, Range, Relation
-from rrnn_opt.errors import DocumentError
+from rrnn_opt.errors import DocumentError, RrnnError
 from rrnn_opt.symbolic import Symbol
 from rrnn_opt.verification import Given, Instance, Proof, Square
 
@@ -46,6 +46,20 @@ def test_a_square_proves():
 
 def test_a_wrong_square_does_not():
     assert Proof(AM_GM, terms=((Square(a**2),),)).settle().status == "UNKNOWN"
+
+
+@pytest.mark.parametrize(
+    ("term", "said"),
+    [
+        (Instance(1, {"a": a, "b": b}), "lemma 1 of 1, from 0"),
+        (Instance(0, {"a": a}), "lemma 'T' is of a, b"),
+        (Square(ca.SX.sym("z")), "terms: depends on z"),
+        (Instance(0, {"a": a, "b": ca.SX.sym("z")}), "terms: depends on z"),
+    ],
+)
+def test_a_term_that_makes_no_sense_is_named(term, said):
+    with pytest.raises(RrnnError, match=said):
+        Proof(AM_GM, (AM_GM,), ((term,),)).document([])
 
 
 def summed(**more):
