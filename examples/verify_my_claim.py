@@ -1,4 +1,4 @@
-"""A claim of one's own: a scalar loop loses energy at the rate one thinks.
+"""A claim about one's own law: PI feedback of a tip error loses energy as designed.
 
 Run it, or let the command line settle it: rrnn verify examples/verify_my_claim.py
 """
@@ -6,22 +6,23 @@ Run it, or let the command line settle it: rrnn verify examples/verify_my_claim.
 import casadi as ca
 
 import rrnn_opt as rr
-from rrnn_opt.claim import Relation
-from rrnn_opt.symbolic import Symbol
 
 
 def claims() -> list[rr.Claim]:
-    """One claim; the graph that is proved is the graph written here."""
-    x, gain = Symbol.scalar("x", "1", "state"), Symbol.scalar("gain", "1/s", "gain")
-    rate = -(gain.sx**2) * x.sx
-    energy_rate = ca.jtimes(x.sx**2 / 2, x.sx, rate)
+    """With u = kp e + ki z the loop is e' = -kp e - ki z, z' = e."""
+    e, z = rr.Symbol.vector("e", 3, "m"), rr.Symbol.vector("z", 3, "m s")
+    kp, ki = rr.Symbol.scalar("kp", "1/s"), rr.Symbol.scalar("ki", "1/s^2")
+    state = ca.vertcat(e.sx, z.sx)
+    rate = ca.vertcat(-kp.sx * e.sx - ki.sx * z.sx, e.sx)
+    energy = ca.dot(e.sx, e.sx) / 2 + ki.sx * ca.dot(z.sx, z.sx) / 2
+    slope = ca.jtimes(energy, state, rate)
     return [
         rr.Claim(
             id="mine",
             source="this file",
-            statement="d/dt x^2/2 = -(gain x)^2 along x' = -gain^2 x",
-            variables=(x, gain),
-            goal=Relation(energy_rate + (gain.sx * x.sx) ** 2, "==0"),
+            statement="V = |e|^2/2 + ki |z|^2/2 changes at -kp |e|^2",
+            variables=(e, z, kp, ki),
+            goal=rr.Relation(slope + kp.sx * ca.dot(e.sx, e.sx), "==0"),
             order="first-order",
         )
     ]

@@ -9,22 +9,20 @@ Run it, or let the command line settle it: rrnn verify examples/verify_my_networ
 import casadi as ca
 
 import rrnn_opt as rr
-from rrnn_opt.claim import Hypothesis, Relation
-from rrnn_opt.symbolic import Symbol
 from rrnn_opt.verification import ClaimCase, Mutation
 
 P = ca.SX([[2, 1], [1, 3]])  # eigenvalues 1.38 and 3.62
-x, s, c = (Symbol.vector(name, 2) for name in ("x", "s", "c"))
-gain = Symbol.scalar("gain", "1/s")
-optimum = Hypothesis(
-    "A0", "s is the optimum: P s = c", Relation(P @ s.sx - c.sx, "==0")
+x, s, c = (rr.Symbol.vector(name, 2) for name in ("x", "s", "c"))
+gain = rr.Symbol.scalar("gain", "1/s")
+optimum = rr.Hypothesis(
+    "A0", "s is the optimum: P s = c", rr.Relation(P @ s.sx - c.sx, "==0")
 )
-fast = Hypothesis(
-    "A1", "the gain is at least 1/s", Relation(gain.sx - 1, ">=0"), added=True
+fast = rr.Hypothesis(
+    "A1", "the gain is at least 1/s", rr.Relation(gain.sx - 1, ">=0"), added=True
 )
 
 
-def decay(name: str, rate: float, *given: Hypothesis) -> rr.Claim:
+def decay(name: str, rate: float, *given: rr.Hypothesis) -> rr.Claim:
     """V' <= -rate V along the network."""
     error = x.sx - s.sx
     energy = ca.dot(error, error) / 2
@@ -34,7 +32,7 @@ def decay(name: str, rate: float, *given: Hypothesis) -> rr.Claim:
         source="this file",
         statement=f"V' <= -{rate:g} V",
         variables=(x, s, c, gain),
-        goal=Relation(slope + rate * energy, "<=0"),
+        goal=rr.Relation(slope + rate * energy, "<=0"),
         hypotheses=(optimum, *given),
         order="first-order",
     )
@@ -42,8 +40,8 @@ def decay(name: str, rate: float, *given: Hypothesis) -> rr.Claim:
 
 def claims() -> list[ClaimCase]:
     """One that holds under A1, checked by a mutation, and two that do not come out."""
-    y = Symbol.scalar("y", "1")
-    bound = Relation(ca.exp(y.sx) - y.sx - 1, ">=0")
+    y = rr.Symbol.scalar("y", "1")
+    bound = rr.Relation(ca.exp(y.sx) - y.sx - 1, ">=0")
     return [
         ClaimCase(decay("rate", 2, fast), Mutation("rate 3", decay("fast", 3, fast))),
         ClaimCase(decay("no_gain", 2)),

@@ -55,7 +55,7 @@ def test_every_relative_link_leads_somewhere(page):
 
 def test_a_lost_link_is_found():
     page = ROOT / "docs" / "index.md"
-    text = "# A b\n[x](lost.md) [y](notation.md#words) [z](#a-b) [w](#nothing)\n"
+    text = "# A b\n[x](lost.md) [y](notation.md#terms) [z](#a-b) [w](#nothing)\n"
     assert list(lost_links(page, text)) == ["lost.md", "#nothing"]
 
 

@@ -98,8 +98,8 @@ def intended(args: argparse.Namespace, study: Any, target: Path) -> list[str]:
     """What is about to be done, how long it may take, and how to stop it."""
     cases, most = sum(1 for _ in study), f" and is ended after {PATIENCE_S:g} s"
     lines = [
-        f"{cases} cases: {len(study.solvers)} solvers in their modes on"
-        f" {len(study.sets)} sets, {args.passes} passes each; a case takes seconds"
+        f"{cases} cases (solvers: {len(study.solvers)}, sets: {len(study.sets)},"
+        f" passes: {args.passes}); a case takes seconds"
         f"{most if args.dask is None else ''}. Ctrl-C keeps what is finished in"
         f" {target}, --resume goes on there"
     ]

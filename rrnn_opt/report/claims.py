@@ -104,7 +104,7 @@ def claims_html(
         words: a paragraph below the heading.
     """
     head = "".join(
-        f"<th>{name}</th>" for name in ("", "as stated", "verdict", "true is")
+        f"<th>{name}</th>" for name in ("", "as stated", "verdict", "what is true")
     )
     rows = "\n".join(_html_row(row) for row in document["claims"])
     seen = "".join(f"<li>{html.escape(_seen(x))}</li>" for x in document["evidence"])

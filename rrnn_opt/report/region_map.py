@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from pathlib import Path
 from typing import Any
 
@@ -66,10 +67,15 @@ def _tiles(cells: list[dict[str, Any]]) -> dict[str, Array]:
     return table
 
 
+def percent(share: float) -> str:
+    """A share in percent, never rounded up: all but a little is not 100 %."""
+    return f"{math.floor(1e4 * float(share)) / 100:g} %"
+
+
 def _words(document: dict[str, Any]) -> tuple[str, tuple[str, str]]:
-    share, sigma = 100 * float(document["share"]), float(document["sigma"])
+    sigma = float(document["sigma"])
     title = (
-        f"{document['robot']}: {share:.3g} % of the region certified,"
+        f"{document['robot']}: {percent(document['share'])} of the region certified,"
         f" sigma_min(J) >= {sigma:.3g} m, alpha >= {float(document['rate']):.3g} 1/s,"
         f" step <= {float(document['step']):.3g} s there"
     )

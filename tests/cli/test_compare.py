@@ -19,7 +19,7 @@ def test_a_comparison_from_the_command_line(tmp_path, capfd):
     words += ["--out", str(tmp_path / "out"), "--json"]
     assert main(words) == 0
     shown = capfd.readouterr()
-    assert "6 cases: 2 solvers in their modes on 1 sets, 2 passes each" in shown.err
+    assert "6 cases (solvers: 2, sets: 1, passes: 2)" in shown.err
     assert "--resume goes on there" in shown.err
     first = json.loads(shown.out)
     modes = {(row["solver"], row["mode"]) for row in first["rows"]}

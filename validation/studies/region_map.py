@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 
 from rrnn_opt.report import draw_region, write_text
+from rrnn_opt.report.region_map import percent
 from rrnn_opt.robot import Kinematics, Robot
 from rrnn_opt.study import Lines
 from rrnn_opt.validation.ending import ended
@@ -49,7 +50,7 @@ def _told(found: RegionMap) -> str:
     """One line for the terminal."""
     boxes = sum(cell.boxes for cell in found.cells)
     return (
-        f"{found.robot}: {100 * found.share:.4g} % certified, {boxes} boxes,"
+        f"{found.robot}: {percent(found.share)} certified, {boxes} boxes,"
         f" sigma >= {found.sigma:.4g} m, alpha >= {found.rate:.4g} 1/s,"
         f" step <= {found.step:.4g} s; {found.time_s:.1f} s in this run\n"
     )
