@@ -48,21 +48,29 @@ def test_random_targets_have_their_distribution(open_search):
     """Where nothing can collide a slide ends at its target: leaves are the draws."""
     robot = rr.Robot.builtin("raven2")
     assert not robot.sphere_pairs()
-    runtime, limits, draws = Runtime(robot, MemoryCell()), robot.limits, []
+    runtime, limits, count = Runtime(robot, MemoryCell()), robot.limits, 3000
     start = np.clip(np.full(robot.nv, 0.1), limits.lower, limits.upper)
     goal = np.clip(start + 0.2, limits.lower, limits.upper)
     data = {"robot": "raven2", "start": start.tolist()}
     data |= {"goal": {"joints": goal.tolist()}, "obstacles": []}
-    for seed in range(150):
-        settings = dataclasses.replace(RANDOM, node_gap=1e9)
-        trees, _, _ = explored(open_search, runtime, data, settings, 1, seed)
-        grown = max(trees, key=lambda tree: len(tree[0]))[0]
-        draws.append(grown[-1])
+    settings = dataclasses.replace(RANDOM, node_gap=1e9)
+    trees, _, _ = explored(open_search, runtime, data, settings, count)
     bounded = np.isfinite(limits.lower)
-    share = (np.array(draws) - limits.lower) / (limits.upper - limits.lower)
-    for column in share.T[bounded]:
+    width = (limits.upper - limits.lower)[bounded]
+    grown = [(nodes[1:, bounded] - limits.lower[bounded]) / width for nodes, _ in trees]
+    share = np.concatenate(grown)
+    assert len(share) == count
+    cuts = np.array([0.0, 0.1, 0.25, 0.4, 0.45, 0.5, 0.55, 0.6, 0.75, 0.9, 1.0])
+    expected = count * np.diff(edge_distribution(cuts))
+    for column in share.T:
         assert stats.kstest(column, edge_distribution).pvalue > 1e-3
-    assert abs(np.corrcoef(share[:, 0], share[:, 1])[0, 1]) < 0.25
+        seen = np.histogram(column, cuts)[0]  # also the middle, where draws are rare
+        assert stats.chisquare(seen, expected).pvalue > 1e-4
+    across = np.corrcoef(share.T) - np.eye(len(width))
+    assert np.abs(across).max() < 0.1
+    for draws in grown:  # independent of the past, which is another tree's too
+        after = [np.corrcoef(draws[1:, k], draws[:-1, k])[0, 1] for k in range(3)]
+        assert np.abs(after).max() < 0.12
 
 
 def test_the_cell_stays_between_its_two_levels():
@@ -86,6 +94,21 @@ def test_the_first_failure_wakes_the_cell(planar_runtime, open_search):
     assert activity[0] == 0.0
     assert np.all(activity[1:] > 1 - 0.9 / 0.95)
     assert counts.random > 20
+
+
+@pytest.mark.parametrize("coin", [-1.0, 0.1, 0.6])
+def test_random_explorations_are_as_frequent_as_the_cell_says(
+    coin, planar_runtime, open_search
+):
+    """Every choice is one exploration without connecting slides, and their number
+    has the mean sum(x): trees that cannot meet always have pairs left to try."""
+    settings = RandomRnn(coin=None if coin < 0 else coin, connect=False)
+    seen = explored(open_search, planar_runtime, APART, settings, 1500)
+    _, activity, counts = seen
+    assert counts.random + counts.heuristic == len(activity) == 1500
+    mean, variance = activity.sum(), (activity * (1 - activity)).sum()
+    assert abs(counts.random - mean) < 4 * np.sqrt(variance)
+    assert mean > 0.05 * 1500
 
 
 def test_a_slide_with_room_ends_at_its_target(planar_runtime, open_search, rng):
