@@ -25,6 +25,7 @@ from rrnn_opt.planning.search.structs import (
     Request,
     SearchCounts,
     Settings,
+    doubles_at,
     settings_struct,
 )
 from rrnn_opt.planning.settings.random_rnn import RandomRnn
@@ -177,10 +178,8 @@ class Search:
     def path(self) -> Array:
         """Waypoints of the path found, (N, nv)."""
         count, types = ct.c_int32(), (ct.POINTER(ct.c_int32),)
-        pointer = self._call("path", ct.POINTER(ct.c_double), types, ct.byref(count))
-        if count.value == 0:
-            return np.zeros((0, self._nv))
-        return np.ctypeslib.as_array(pointer, (count.value, self._nv)).copy()
+        address = self._call("path", ct.c_void_p, types, ct.byref(count))
+        return doubles_at(address, (count.value, self._nv))
 
     def shorten(self, path: Array, attempts: int) -> Array:
         """A proved path, shortened by random slides between its points.
@@ -212,10 +211,7 @@ class Search:
         """Memory cell's activity before each exploration."""
         counts = self.counts()
         total = counts.random + counts.heuristic
-        if total == 0:
-            return np.zeros(0)
-        pointer = self._call("cells", ct.POINTER(ct.c_double), ())
-        return np.ctypeslib.as_array(pointer, (total,)).copy()
+        return doubles_at(self._call("cells", ct.c_void_p, ()), (total,))
 
     def trees(self, most: int | None = None) -> tuple[Tree, Tree]:
         """Nodes (N, nv) and parents (N,) of the start's and the goals' tree.

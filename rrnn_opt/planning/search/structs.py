@@ -15,6 +15,17 @@ NEAR_MAX = 4096
 """Pairs that a step lists, at most; as in runtime/types.h."""
 
 
+def doubles_at(address: int | None, shape: tuple[int, ...]) -> Array:
+    """A copy of what the runtime keeps at an address.
+
+    ``numpy.ctypeslib.as_array`` would leave a new ctypes type behind for every shape.
+    """
+    found = np.empty(shape)
+    if found.size:
+        ct.memmove(found.ctypes.data, ct.c_void_p(address), found.nbytes)
+    return found
+
+
 class Settings(ct.Structure):
     """``settings_t`` of runtime/types.h."""
 
