@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -12,12 +12,16 @@ from rrnn_opt.planning.problem.goals import JointGoal, TipGoal
 from rrnn_opt.planning.problem.problem import Problem
 from rrnn_opt.planning.search.library import Search
 from rrnn_opt.planning.search.structs import Contact
+from rrnn_opt.robot.kinematics import Kinematics
 from rrnn_opt.robot.reach import reach_ball
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.tree import CONTINUOUS
+from rrnn_opt.scene import Mesh
 
 Array = NDArray[np.float64]
 
+ROUNDING = 1e-9
+"""What a proof must have to spare, m: more than rounding up to 1e5 m."""
 _MILLIMETRES = 20.0
 """A goal as many reaches away was hardly written in metres."""
 
@@ -75,20 +79,57 @@ def _obstacle_name(problem: Problem, solid: int) -> str:
 
 
 def blocked(problem: Problem, search: Search, q: Array, name: str) -> Infeasible | None:
-    """The posture's collision, or None when it keeps every margin."""
+    """Proof that a posture's closest pair is nearer than allowed, or None.
+
+    The gap of a hull is a lower bound outside of it: there the distance to one of
+    the hull's points, which is an upper bound, takes its place.
+    """
     contact = search.closest(q)
-    if contact is None or contact.gap >= 0.0:
+    if contact is None or contact.gap >= -ROUNDING:
+        return None
+    if not contact.is_self:
+        gap = max(contact.gap, _largest_gap(problem, contact, q))
+        contact = replace(contact, gap=gap)
+    if contact.gap >= -ROUNDING:
         return None
     what, data = describe(problem, contact, q)
     verb = "is in collision" if data["clearance"] < 0.0 else "is too close"
     return Infeasible(f"{name} {verb}: {what}", data)
 
 
+def _largest_gap(problem: Problem, contact: Contact, q: Array) -> float:
+    """What the gap to a hull is at most, m; -inf where the gap is no lower bound."""
+    owner = int(problem.solids.solids.owner[contact.other])
+    obstacle = problem.scene.obstacles[owner]
+    reserved = problem.robot.spheres[contact.sphere].radius + problem.margin
+    if not isinstance(obstacle, Mesh) or contact.gap + reserved <= 0.0:
+        return -np.inf
+    centres = Kinematics(problem.robot).functions()["sphere_centres"](q)
+    centre = np.array(centres)[:, contact.sphere]
+    return _to_hull(centre, obstacle.corners()) - reserved
+
+
+def _to_hull(point: Array, corners: Array) -> float:
+    """Distance from a point to the nearest convex combination of corners, m.
+
+    min |V'w| over w >= 0 with sum w = 1, V = corners - point, as non-negative least
+    squares with the sum weighted by V's size: scaling w to the sum 1 leaves its
+    direction, which is that of the optimum.
+    """
+    from scipy.optimize import nnls  # costs more to import than a plan
+
+    arms = corners - point
+    size = float(np.abs(arms).max())
+    rows = np.vstack([arms.T / size, np.ones(len(arms))])
+    weights = nnls(rows, np.array([0.0, 0.0, 0.0, 1.0]))[0]
+    return float(np.linalg.norm(weights @ arms) / weights.sum())
+
+
 def out_of_reach(problem: Problem, goal: TipGoal) -> Infeasible | None:
     """Proof that a tip goal lies beyond the sum of the link lengths."""
     centre, radius = reach_ball(problem.robot, problem.frame)
     distance = goal.distance(centre)
-    if distance <= radius + goal.tolerance:
+    if distance <= radius + goal.tolerance + ROUNDING:
         return None
     units = "; positions are metres" if distance > _MILLIMETRES * radius else ""
     return Infeasible(
