@@ -113,7 +113,7 @@ def _rows(written: law.Law, result: PlanResult) -> tuple[tuple[str, str], ...]:
     stats, certificate = result.stats, result.certificate
     assert result.trajectory is not None
     clearance = 1e3 * certificate["clearance_lower_bound"]
-    total = stats.random + stats.heuristic
+    total = stats.explorations
     return (
         ("status", result.status),
         (

@@ -69,10 +69,15 @@ class PlanStats:
     retime_time_s: float = 0.0
     compile_time_s: float = 0.0
 
+    @property
+    def explorations(self) -> int:
+        """Rollouts started, of whatever kind."""
+        return self.random + self.heuristic
+
     def to_dict(self) -> dict[str, Any]:
         """The ``stats`` of a plan document."""
         return {
-            "explorations": self.random + self.heuristic,
+            "explorations": self.explorations,
             **{k: getattr(self, k) for k in _PLAIN},
             "memory_cell": list(self.memory_cell),
         }

@@ -96,7 +96,7 @@ class RavenTrials:
             "solved": result.solved,
             "random": stats.random,
             "heuristic": stats.heuristic,
-            "total": stats.random + stats.heuristic,
+            "total": stats.explorations,
             "clearance_m": result.certificate["clearance_lower_bound"],
             "plan_ms": 1e3 * stats.plan_time_s,
             "all_ms": 1e3 * (stats.time_s - stats.compile_time_s),
