@@ -6,6 +6,10 @@ import numpy as np
 import pytest
 
 from rrnn_opt.planning import Problem, plan
+from rrnn_opt.planning.search.feasibility import blocked
+from rrnn_opt.planning.search.request import pack
+from rrnn_opt.planning.searches import open_search, runtime_for
+from rrnn_opt.planning.settings.planners import PLANNERS
 
 EDGE, RADIUS = 0.1, 0.05
 END = np.array([2.390560596653324, 0.0, 0.0])
@@ -64,10 +68,17 @@ def test_touching_within_rounding_is_no_proof():
         "obstacles": [wall],
         "margin": 0.1,
     }
-    touching = plan(Problem.from_dict(data), max_explorations=20)
-    assert touching.status in ("uncertified", "budget_exhausted")
-    nearer = plan(Problem.from_dict(data | {"margin": 0.1 + 1e-6}))
-    assert nearer.status == "infeasible"
+    assert _start_blocked(Problem.from_dict(data)) is None
+    nearer = _start_blocked(Problem.from_dict(data | {"margin": 0.1 + 1e-6}))
+    assert nearer is not None
+    assert nearer.witness["clearance"] == pytest.approx(0.1, abs=1e-9)
+
+
+def _start_blocked(problem):
+    settings = PLANNERS["random-rnn"]
+    runtime = runtime_for(problem.robot, settings)
+    with open_search(runtime, settings, pack(problem, (), (), 0)) as search:
+        return blocked(problem, search, problem.start, "start")
 
 
 def test_explorations_are_random_and_heuristic_ones(cube):
