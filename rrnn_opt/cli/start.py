@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import atexit
+import contextlib
 import os
 import signal
 import sys
+from dataclasses import dataclass
 
 
 def fill_streams() -> None:
@@ -20,21 +23,33 @@ def fill_streams() -> None:
             setattr(sys, name, stream)
 
 
-def settle_interrupt() -> None:
-    """Let the exit status of an interrupted command stand.
+@dataclass
+class Ending:
+    """The end of the process, after all that others do at its exit.
 
     Where code that a C library ran was interrupted, CPython ends the process by SIGINT
-    even if the interrupt was handled (``unhandled_keyboard_interrupt``); it forgets
-    that when other such code comes to its end.
-    """
-    import ctypes
+    even if the interrupt was handled (``unhandled_keyboard_interrupt``).
 
-    ctypes.pythonapi.PyRun_SimpleString(b"pass")
+    Attributes:
+        status: to leave with if a signal asked for the end; 0 if none did.
+    """
+
+    status: int = 0
+
+    def __call__(self) -> None:
+        """Leave with the status of the signal; threads and pools have ended by now."""
+        if self.status > 128:
+            for stream in (sys.stdout, sys.stderr):
+                with contextlib.suppress(OSError, ValueError):
+                    stream.flush()
+            os._exit(self.status)
 
 
 def main() -> int:
     """Load and run the command line; the exit status."""
     fill_streams()
+    ending = Ending()
+    atexit.register(ending)  # the first to be registered is the last to be called
     loaded = False
     try:
         from rrnn_opt.cli.main import main as run
@@ -47,8 +62,7 @@ def main() -> int:
         print("rrnn: interrupted", file=sys.stderr)
         code = 130
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    if code > 128:
-        settle_interrupt()
+    ending.status = code
     return code
 
 

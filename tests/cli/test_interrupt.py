@@ -118,21 +118,42 @@ def test_an_interrupt_while_the_program_loads_leaves_no_traceback(options):
     assert said == "rrnn: interrupted\n"
 
 
-def test_the_status_stands_where_a_c_library_was_interrupted(tmp_path):
-    (tmp_path / "started.py").write_text(
-        "import ctypes, sys\n"
-        "from rrnn_opt.cli import main, start\n"
-        "def run():\n"
-        "    ctypes.pythonapi.PyRun_SimpleString(b'raise KeyboardInterrupt')\n"
-        "    return 143\n"
-        "main.main = run\n"
-        "sys.exit(start.main())\n"
-    )
+INTERRUPTED_IN_C = """
+import atexit, concurrent.futures, ctypes, os, pathlib, sys, tempfile
+from rrnn_opt.cli import main, start
+def spoil():
+    ctypes.pythonapi.PyRun_SimpleString(b'raise KeyboardInterrupt')
+def late():
+    pathlib.Path('late').write_text('done')
+    spoil()
+def run():
+    global folder, pool
+    folder = tempfile.TemporaryDirectory(dir='.', prefix='draft-')
+    pool = concurrent.futures.ProcessPoolExecutor(1)
+    print(pool.submit(os.getpid).result(), end='')
+    atexit.register(late)
+    spoil()
+    return STATUS
+main.main = run
+if __name__ == '__main__':
+    sys.exit(start.main())
+"""
+
+
+@pytest.mark.parametrize("status", [130, 143, 129])
+def test_the_status_stands_where_a_c_library_was_interrupted(tmp_path, status):
+    """Also in the last moment; what others do at the exit is done all the same."""
+    text = INTERRUPTED_IN_C.replace("STATUS", str(status))
+    (tmp_path / "started.py").write_text(text)
     words = [sys.executable, "-m", "started"]  # only with -m does CPython ask again
     done = subprocess.run(
-        words, capture_output=True, check=False, timeout=30, cwd=tmp_path
+        words, capture_output=True, check=False, timeout=30, cwd=tmp_path, text=True
     )
-    assert done.returncode == 143
+    assert done.returncode == status
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(done.stdout), 0)  # its worker; what was printed is whole
+    left = {path.name for path in tmp_path.iterdir()}
+    assert left - {"__pycache__"} == {"started.py", "late"}
 
 
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
