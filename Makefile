@@ -58,13 +58,16 @@ $(VENV)/made.stamp:
 	@touch $@
 
 $(VENV)/demo.stamp: $(VENV)/made.stamp pyproject.toml
+	@echo 'installing packages into $(VENV): a minute or more'
 	$(PIP) -e '.[viz]'
 	@touch $@
 
 $(VENV)/test.stamp: $(VENV)/made.stamp pyproject.toml
+	@echo 'installing packages into $(VENV): a minute or more'
 	$(PIP) -e '.[test,viz]'
 	@touch $@
 
 $(VENV)/dev.stamp: $(VENV)/made.stamp pyproject.toml
+	@echo 'installing packages into $(VENV): a minute or more'
 	$(PIP) -e '.[test,viz,dev]'
 	@touch $@

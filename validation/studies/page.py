@@ -23,8 +23,9 @@ def markdown(results: Rows, table: Rows, *, title: Sequence[str]) -> str:
     """
     networks = [row for row in table if row["kind"] == "network"]
     solvers = [row for row in table if row["kind"] == "solver"]
+    robots = ", ".join(dict.fromkeys(str(row["robot"]) for row in table))
     parts = [
-        "# Ground truth: networks against QP solvers",
+        f"# Networks against QP solvers: {robots}",
         "\n".join(f"- {line}" for line in title),
         _LEGEND,
         "## Points",
