@@ -6,12 +6,19 @@ available as attributes, so that callers never parse a sentence.
 
 from __future__ import annotations
 
+import copyreg
+from typing import Any
+
 _LONGEST = 600
 """Characters of a name or a reason in a message."""
 
 
 class RrnnError(Exception):
     """Root of every error that this package raises on purpose."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Come through a process pool as it is: its arguments are not its text."""
+        return copyreg.__newobj__, (type(self), *self.args), self.__dict__  # type: ignore[attr-defined]
 
 
 class ShapeError(RrnnError):
