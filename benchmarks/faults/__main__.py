@@ -218,6 +218,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             print(title, way, dict(table[title, way]), flush=True)
             shutil.rmtree(room)
     said = f"python -m benchmarks.faults --kills {args.kills} --seed {args.seed}"
+    said += f" --only {args.only}" if args.only else ""
     text = page(table, said)
     print(text)
     if args.page:
