@@ -35,6 +35,10 @@ def shape_of(obstacle: dict[str, Any]) -> tuple[Any, Any]:
         shape = coal.Box(*(float(v) for v in obstacle["size"]))
     elif kind == "sphere":
         shape = coal.Sphere(float(obstacle["radius"]))
+    elif kind == "mesh":
+        corners = coal.StdVec_Vec3s()
+        corners.extend(list(_vertices(obstacle)))
+        shape = coal.Convex.convexHull(corners, True, "")
     elif kind == "halfspace":
         normal = np.array(obstacle["normal"], float)
         shape = coal.Halfspace(normal, float(obstacle["offset"]))
@@ -42,6 +46,15 @@ def shape_of(obstacle: dict[str, Any]) -> tuple[Any, Any]:
         solid = {"cylinder": coal.Cylinder, "capsule": coal.Capsule}[kind]
         shape = solid(float(obstacle["radius"]), float(obstacle["length"]))
     return shape, coal.Transform3s(rotation, position)
+
+
+def _vertices(obstacle: dict[str, Any]) -> np.ndarray:
+    """Corners of a mesh obstacle in its own axes, read by trimesh, (n, 3), m."""
+    import trimesh  # of the extra viz; scenes without meshes do not need it
+
+    mesh = trimesh.load(obstacle["path"], force="mesh", process=False)
+    scale = np.broadcast_to(np.array(obstacle.get("scale", 1.0), float), (3,))
+    return np.unique(np.array(mesh.vertices, float) * scale, axis=0)
 
 
 class Follower:

@@ -28,6 +28,31 @@ def test_a_window_plan_keeps_clear():
     assert keeps_clear(plan(problem, seed=7).to_dict()).queries > 50
 
 
+@pytest.mark.parametrize("scale", [3.0, 3.3])
+def test_a_plan_past_a_mesh_keeps_clear(tmp_path, scale):
+    pytest.importorskip("trimesh")
+    corners = itertools.product((0.0, 0.1), repeat=3)
+    lines = [f"v {x} {y} {z}" for x, y, z in corners]
+    (tmp_path / "cube.obj").write_text("\n".join([*lines, "f 1 2 3", "f 6 7 8"]))
+    rock = {
+        "type": "mesh",
+        "path": str(tmp_path / "cube.obj"),
+        "scale": scale,
+        "position": [1.3, 0.9, -0.1],
+        "quat_xyzw": [0.0, 0.0, 0.6, 0.8],
+    }
+    problem = {
+        "robot": "planar3",
+        "start": [0.0, 0.0, 0.0],
+        "goal": {"joints": [1.2, 0.2, -0.1]},
+        "obstacles": [rock],
+    }
+    document = plan(Problem.from_dict(problem), seed=1).to_dict()
+    keeps_clear(document)
+    rock["scale"] = 2.0 * scale  # what the plan did not know of
+    assert follow({**document, "problem": problem}).least < 0.0
+
+
 def test_following_sees_a_collision():
     document = plan(Problem.from_dict(scenario("window").problem(7)), seed=7).to_dict()
     pin = {

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rrnn_opt.planning.problem.goals import JointGoal, TipGoal
+from rrnn_opt.planning.problem.goals import JOINT_TOLERANCE, JointGoal, TipGoal
 from rrnn_opt.planning.problem.problem import Problem
 from rrnn_opt.planning.search.library import Search
 from rrnn_opt.planning.search.structs import Contact
 from rrnn_opt.robot.kinematics import Kinematics
-from rrnn_opt.robot.reach import reach_ball
+from rrnn_opt.robot.reach import reach, reach_ball
 from rrnn_opt.robot.robot import Robot
 from rrnn_opt.robot.tree import CONTINUOUS
 from rrnn_opt.scene import Mesh
@@ -78,11 +78,20 @@ def _obstacle_name(problem: Problem, solid: int) -> str:
     return problem.scene.obstacles[int(owner)].name
 
 
-def blocked(problem: Problem, search: Search, q: Array, name: str) -> Infeasible | None:
+def blocked(
+    problem: Problem, search: Search, q: Array, name: str, *, within: float = 0.0
+) -> Infeasible | None:
     """Proof that a posture's closest pair is nearer than allowed, or None.
 
     The gap of a hull is a lower bound outside of it: there the distance to one of
     the hull's points, which is an upper bound, takes its place.
+
+    Args:
+        problem: robot and scene.
+        search: opened on the problem.
+        q: the posture, (nv,), rad or m.
+        name: what it is called in the message.
+        within: the proof is for all postures so near in every coordinate, rad or m.
     """
     contact = search.closest(q)
     if contact is None or contact.gap >= -ROUNDING:
@@ -90,11 +99,18 @@ def blocked(problem: Problem, search: Search, q: Array, name: str) -> Infeasible
     if not contact.is_self:
         gap = max(contact.gap, _largest_gap(problem, contact, q))
         contact = replace(contact, gap=gap)
-    if contact.gap >= -ROUNDING:
+    if contact.gap + _sway(problem.robot, contact, within) >= -ROUNDING:
         return None
     what, data = describe(problem, contact, q)
     verb = "is in collision" if data["clearance"] < 0.0 else "is too close"
     return Infeasible(f"{name} {verb}: {what}", data)
+
+
+def _sway(robot: Robot, contact: Contact, within: float) -> float:
+    """How far a pair can part while every coordinate changes by so much, m."""
+    levers = within * np.abs(robot.tree.multiplier) @ reach(robot)
+    pair = [contact.sphere, contact.other] if contact.is_self else [contact.sphere]
+    return float(levers[pair].sum())
 
 
 def _largest_gap(problem: Problem, contact: Contact, q: Array) -> float:
@@ -161,7 +177,7 @@ def open_goals(problem: Problem, search: Search) -> OpenGoals | Infeasible:
     for goal in problem.goals:
         if isinstance(goal, JointGoal):
             q = nearest_turn(problem.robot, np.asarray(goal.joints), problem.start)
-            verdict = blocked(problem, search, q, "goal")
+            verdict = blocked(problem, search, q, "goal", within=JOINT_TOLERANCE)
             if verdict is None:
                 joints.append(q)
         else:

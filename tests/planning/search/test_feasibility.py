@@ -68,17 +68,37 @@ def test_touching_within_rounding_is_no_proof():
         "obstacles": [wall],
         "margin": 0.1,
     }
-    assert _start_blocked(Problem.from_dict(data)) is None
-    nearer = _start_blocked(Problem.from_dict(data | {"margin": 0.1 + 1e-6}))
+    assert _blocked(Problem.from_dict(data)) is None
+    nearer = _blocked(Problem.from_dict(data | {"margin": 0.1 + 1e-6}))
     assert nearer is not None
     assert nearer.witness["clearance"] == pytest.approx(0.1, abs=1e-9)
 
 
-def _start_blocked(problem):
+@pytest.mark.parametrize(("overlap", "proved"), [(1e-6, False), (1e-5, True)])
+def test_a_goal_is_refused_with_all_postures_that_meet_it(overlap, proved):
+    """Three joints of 1e-6 rad move the last sphere by some 5e-6 m."""
+    wall = {"type": "halfspace", "normal": [-1.0, 0.0, 0.0]}
+    wall["offset"] = -(END[0] + RADIUS - overlap)
+    data = {
+        "robot": "planar3",
+        "start": [2.0, 0.0, 0.0],
+        "goal": {"joints": [0.0, 0.0, 0.0]},
+        "obstacles": [wall],
+        "margin": 0.0,
+    }
+    problem = Problem.from_dict(data)
+    stretched = np.zeros(3)
+    assert _blocked(problem, stretched) is not None
+    found = _blocked(problem, stretched, within=1e-6)
+    assert (found is not None) == proved
+
+
+def _blocked(problem, q=None, within=0.0):
+    q = problem.start if q is None else q
     settings = PLANNERS["random-rnn"]
     runtime = runtime_for(problem.robot, settings)
     with open_search(runtime, settings, pack(problem, (), (), 0)) as search:
-        return blocked(problem, search, problem.start, "start")
+        return blocked(problem, search, q, "posture", within=within)
 
 
 def test_explorations_are_random_and_heuristic_ones(cube):
