@@ -26,8 +26,17 @@ def blocks(page):
     return re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(), re.S)
 
 
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+QUICK = ("quickstart", "verify_my_claim")
+
+
 @pytest.mark.parametrize(
-    "path", sorted((ROOT / "examples").glob("*.py")), ids=lambda p: p.stem
+    "path",
+    [
+        pytest.param(path, marks=() if path.stem in QUICK else pytest.mark.slow)
+        for path in EXAMPLES
+    ],
+    ids=lambda path: path.stem,
 )
 def test_example(path, capfd, monkeypatch):
     monkeypatch.setattr(sys, "argv", [str(path)])
@@ -62,6 +71,7 @@ def test_command_of_an_example_file(arguments, capfd):
     assert main([files.get(a, a) for a in arguments]) == 0, capfd.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_loop_around_a_generated_controller(tmp_path):
     """As its first lines say: generated, compiled with every warning, and run."""
     compiler = shutil.which("cc") or pytest.skip("cc is not installed")
@@ -100,6 +110,7 @@ def test_the_proof_of_the_tutorial(capfd):
     assert capfd.readouterr().out.split() == ["PROVED", "exact"]
 
 
+@pytest.mark.slow
 def test_the_problem_file_of_the_tutorial_and_its_csv(tmp_path, capfd):
     page = (ROOT / "docs/tutorials/plan.md").read_text("utf-8")
     (problem,) = re.findall(r"```json\n(.*?)```", page, re.S)

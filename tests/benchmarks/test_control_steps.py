@@ -24,6 +24,7 @@ def test_the_cases_cover_what_they_are_made_of():
     }
 
 
+@pytest.mark.slow
 def test_twenty_thousand_steps():
     case = Case("pa10", "repetitive_motion", "SimplifiedLviPdnn", "float", True)
     row = run(case, 20_000, 1)

@@ -5,6 +5,7 @@ import pytest
 from rrnn_opt.cli.main import main
 
 
+@pytest.mark.slow
 def test_a_comparison_from_the_command_line(tmp_path, capfd):
     study = tmp_path / "mine.py"
     study.write_text(
@@ -49,7 +50,11 @@ def test_what_there_is_to_compare(capfd):
         (["circles"], "no study 'circles'"),
         (["circle", "--solvers", "qp"], "no solver 'qp'"),
         (["nothing.py"], "cannot be read"),
-        (["circle", "--dask", "tcp://127.0.0.1:9"], "no Dask cluster"),
+        pytest.param(
+            ["circle", "--dask", "tcp://127.0.0.1:9"],
+            "no Dask cluster",
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_wrong_words_are_said_in_one_sentence(

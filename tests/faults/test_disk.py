@@ -35,6 +35,7 @@ def one_sentence(run):
     return lines[0]
 
 
+@pytest.mark.slow
 def test_a_full_disk_keeps_the_plan_on_standard_output(place):
     with mounted(place.out, "size=8k") as full:
         run = place.rrnn("plan", "problem.json", "--out", "out", "--json")
@@ -188,6 +189,7 @@ def test_an_old_table_does_not_stand_beside_a_new_answer(place):
     assert not (place.out / "trajectory.csv").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs /dev/full")
 def test_a_package_on_a_full_disk(place):
     words = ("generate", "minimum_velocity", "--robot", "planar3", "--out", "out")

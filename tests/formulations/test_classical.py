@@ -1,5 +1,6 @@
 import casadi as ca
 import numpy as np
+import pytest
 
 from rrnn_opt.formulations import classical, minimum_velocity
 from rrnn_opt.formulations.classical import multiplier_rate
@@ -56,6 +57,7 @@ def drift(kin, *, measured):
     return errors[799], errors[1599]
 
 
+@pytest.mark.slow
 def test_unseen_motion_accumulates_when_commands_are_integrated(planar3):
     half, full = drift(planar3, measured=False)
     assert full > 1.8 * half > 0.05

@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+import pytest
+
 RETIMED = """
 import sys
 from types import SimpleNamespace
@@ -34,10 +36,12 @@ assert matplotlib.pyplot is plt and matplotlib.__version__
     assert run(RETIMED + code).strip() == "[]"
 
 
+@pytest.mark.slow
 def test_toppra_may_be_the_first_to_plot():
     run(RETIMED + "import toppra.algorithm.algorithm as t; t.plt.figure; t.plt.close()")
 
 
+@pytest.mark.slow
 def test_what_is_loaded_already_is_left_alone():
     before = "import matplotlib.pyplot as plt\n"
     code = "import toppra.algorithm.algorithm as theirs; assert theirs.plt is plt"

@@ -54,6 +54,7 @@ def test_here_goes_in_order(studies):
     assert found == [f"case/{k}" for k in range(4)]
 
 
+@pytest.mark.slow
 def test_a_case_that_takes_too_long_is_ended(studies):
     workers = Processes(2, patience_s=6.0)
     found = list(rows(studies.Draws(3, stuck=1), workers=workers))

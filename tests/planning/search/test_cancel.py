@@ -66,6 +66,7 @@ def ctrl_c():
         thread.join()
 
 
+@pytest.mark.slow
 def test_a_goal_in_the_midst_of_points_is_given_up_soon(tmp_path):
     """A posture's first collision is enough: not all pairs in reach are listed."""
     spread = np.random.default_rng(0).uniform(-0.15, 0.15, (100_000, 3))

@@ -33,6 +33,7 @@ def without_viser(monkeypatch):
     monkeypatch.setitem(sys.modules, "viser", None)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("without_viser")
 def test_without_viser_the_picture_and_one_sentence(window, tmp_path):
     write_page(window, tmp_path / "p.html")

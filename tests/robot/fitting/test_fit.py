@@ -179,6 +179,7 @@ def passing(tmp_path, height, axis="0 0 1"):
     return path
 
 
+@pytest.mark.slow
 def test_spheres_are_added_where_links_pass_each_other(tmp_path, monkeypatch):
     """The gap of 25 mm is less than the bulges: more spheres leave room for it."""
     monkeypatch.setattr(fit, "NEIGHBOURS", 0)

@@ -80,6 +80,7 @@ def test_cells_have_the_form_of_reproduce_and_rows_without_paper_none():
     json.dumps(made)
 
 
+@pytest.mark.slow
 def test_the_page_says_where_intervals_overlap():
     near = [fake("quiet", 0.0100), fake("method3", 0.0101)]
     apart = [fake("quiet", 0.0100), fake("method3", 0.0200)]

@@ -123,7 +123,7 @@ def test_hypotheses_cut_the_domain():
 @pytest.mark.parametrize(
     ("expression", "word"),
     [
-        (lambda x: 1 / (x * x), "not defined"),
+        pytest.param(lambda x: 1 / (x * x), "not defined", marks=pytest.mark.slow),
         (lambda x: ca.sqrt(x) + 1, "not defined"),
         (ca.exp, "exp"),
         (lambda x: (3 * x - 1) ** 2, "tight"),
