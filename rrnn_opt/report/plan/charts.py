@@ -67,7 +67,8 @@ def clearance(
         place, label = (motion.t[least], 1e3 * distance[least]), _literal(closest, 60)
         axes.plot(*place, "o", mec=NEAREST, mfc="none", ms=7, mew=1.5, label=label)
     top = float(1e3 * distance.max())
-    axes.set_ylim(min(-0.08 * top, 1.1e3 * float(distance.min())), 1.12 * top + 1e-9)
+    low, high = min(-0.08 * top, 1.1e3 * float(distance.min())), 1.5 * top
+    axes.set_ylim(low, high + 1e-9)  # with room for the legend above the curve
     dress(axes, "clearance to obstacles [mm]", "time [s]", motion.t)
     axes.legend(fontsize=6.5, frameon=False, loc="upper right")
 
