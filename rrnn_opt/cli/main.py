@@ -167,10 +167,12 @@ def _mention_cache(out: Output) -> None:
 
 def _explained(out: Output, name: str, error: Exception) -> int:
     """One sentence on an error, and whose fault it is."""
+    cause = error if isinstance(error, OSError) else error.__cause__
+    full = isinstance(cause, OSError) and cause.errno in FULL
     if isinstance(error, RrnnError):
-        return _failed(out, name, str(error), BAD_INPUT)
+        return _failed(out, name, str(error), FAILED if full else BAD_INPUT)
     if isinstance(error, OSError):
-        code = FAILED if out.done or error.errno in FULL else BAD_INPUT
+        code = FAILED if out.done or full else BAD_INPUT
         return _failed(out, name, os_sentence(error), code)
     hint = "this is a fault of ours: run it again with --debug to see where"
     return _failed(out, "", f"{type(error).__name__}: {error}; {hint}", FAILED)
