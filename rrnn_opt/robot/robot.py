@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -36,7 +36,7 @@ class Robot(RobotData):
             RobotError: an entry is missing or makes no sense.
             NotFiniteError: a number is not finite.
         """
-        return Robot(**vars(robot_from_dict(data)))
+        return _robot(robot_from_dict(data))
 
     @staticmethod
     def builtin(name: str) -> Robot:
@@ -45,7 +45,7 @@ class Robot(RobotData):
         Raises:
             RobotError: no robot has that name.
         """
-        return Robot(**vars(builtin(name)))
+        return _robot(builtin(name))
 
     @staticmethod
     def from_urdf(
@@ -72,7 +72,7 @@ class Robot(RobotData):
         from rrnn_opt.robot.loading.loader import from_urdf
 
         data = from_urdf(path, tip=tip, tips=tips, spheres=spheres, locked=locked)
-        return Robot(**vars(data))
+        return _robot(data)
 
     @staticmethod
     def from_pinocchio(model: Any, *, tip: str | None = None) -> Robot:
@@ -87,4 +87,8 @@ class Robot(RobotData):
         """
         from rrnn_opt.robot.loading.loader import from_pinocchio
 
-        return Robot(**vars(from_pinocchio(model, tip=tip)))
+        return _robot(from_pinocchio(model, tip=tip))
+
+
+def _robot(data: RobotData) -> Robot:
+    return Robot(**{field.name: getattr(data, field.name) for field in fields(data)})
